@@ -1,0 +1,219 @@
+// The archive: what a program that uses Reprise as a library needs. The command is built on this alone.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reprise/formats/motion_file.h"
+#include "reprise/model/measure.h"
+#include "reprise/model/take.h"
+
+namespace reprise {
+
+/// How faithful a stored take is. Persisted in archives: never change a value.
+enum class FidelityTier : std::uint8_t { preview = 1, standard = 2, fine = 3, exact = 4, bound = 5 };
+
+/// "preview", "standard", "fine", "exact", "bound".
+std::string tier_name(FidelityTier tier);
+
+struct Fidelity {
+  FidelityTier tier = FidelityTier::preview;
+  double limit_mm = 20.0;  ///< preview: the take's mean joint error; bound: of every joint in every frame
+};
+
+enum class ClipKind : std::uint8_t { primary = 1, repeated = 2, unique = 3 };
+std::string clip_kind_name(ClipKind kind);
+
+/// Content address of a clip: a digest of its skeleton's structure and the source's channel values over
+/// its frames. 16 hexadecimal digits.
+using ClipId = std::string;
+
+struct TakeInfo {
+  std::int64_t id = 0;  ///< row in this archive, not stable across archives
+  std::string name;
+  std::string subject;
+  std::string description;
+  std::string tags;
+  MotionFormat format = MotionFormat::bvh;
+  std::int64_t skeleton = 0;
+  long frames = 0;
+  double frame_rate = 0;
+  bool frame_rate_assumed = false;
+  Fidelity fidelity;
+  std::uint64_t raw_bytes = 0;   ///< 4 x channels x frames
+  std::uint64_t text_bytes = 0;  ///< the source file
+  std::uint64_t payload_bytes = 0;
+  PositionErrors error_mm;  ///< as measured at ingest on the decoded take
+  std::string source_digest;  ///< hexadecimal digest of the source file's bytes
+
+  double seconds() const { return static_cast<double>(frames) / frame_rate; }
+};
+
+struct ClipInfo {
+  ClipId id;
+  std::string take;
+  ClipKind kind = ClipKind::unique;
+  std::int64_t group = 0;  ///< behaviour group; 0 where there are none
+  long first_frame = 0;
+  long frames = 0;
+  double start = 0;  ///< seconds
+  double end = 0;
+  ClipId primary;  ///< of a repeated clip, else empty
+  std::uint64_t bytes = 0;
+};
+
+struct SkeletonInfo {
+  std::int64_t id = 0;
+  MotionFormat format = MotionFormat::bvh;
+  std::size_t joints = 0;  ///< with end sites
+  std::size_t channels = 0;
+  std::size_t takes = 0;
+  std::size_t proportions = 0;  ///< how many sets of offsets and lengths (actors) share it
+  std::string root;             ///< name of the first joint
+};
+
+struct TakeFilter {
+  std::string take;     ///< name or trailing part of it; empty: all
+  std::string subject;  ///< exact; empty: all
+  std::string text;     ///< words that the description, tags, name or subject must hold
+  std::optional<ClipKind> kind;
+};
+
+struct ArchiveStats {
+  std::size_t takes = 0;
+  std::uint64_t frames = 0;
+  double seconds = 0;
+  std::size_t subjects = 0;
+  std::size_t skeletons = 0;
+  std::size_t groups = 0;
+  std::size_t primary_clips = 0;
+  std::size_t repeated_clips = 0;
+  std::size_t unique_clips = 0;
+  std::uint64_t raw_bytes = 0;
+  std::uint64_t text_bytes = 0;
+  std::uint64_t archive_bytes = 0;
+  std::uint64_t payload_bytes = 0;
+  std::map<std::string, std::uint64_t> bytes;  ///< parts of archive_bytes; they add up
+  PositionErrors error_mm;
+  std::map<std::string, std::size_t> fidelity;  ///< takes a tier
+};
+
+struct ArchiveInfo {
+  std::string content_digest;  ///< hexadecimal; equal for equal content, however it was put together
+  int format_version = 0;
+  std::string written_by;
+  ArchiveStats stats;
+};
+
+struct Damage {
+  std::string id;  ///< take, clip or part of the archive
+  std::string why;
+};
+
+struct VerifyReport {
+  bool ok = true;
+  std::size_t takes = 0;
+  std::size_t clips = 0;
+  std::vector<Damage> damaged;
+  PositionErrors error_mm;  ///< measured against the sources where `against` was given, else as stored
+};
+
+struct Progress {
+  std::size_t done = 0;
+  std::size_t total = 0;
+  std::string current;  ///< the take or file at hand
+};
+/// Called from one thread at a time. Returning false asks to stop: the call ends with Error (interrupted)
+/// after the batch at hand is complete or rolled back.
+using ProgressSink = std::function<bool(const Progress&)>;
+
+struct IngestOptions {
+  std::vector<std::filesystem::path> paths;
+  Fidelity fidelity;
+  ReadOptions read;
+  unsigned jobs = 1;  ///< worker threads; results do not depend on it
+  std::optional<std::filesystem::path> metadata;  ///< CSV: take, subject, description, tags
+  std::string prefix;  ///< put before the names of this ingest, with '/'
+  bool replace = false;
+  bool dry_run = false;
+};
+
+struct RejectedInput {
+  std::string path;
+  std::size_t line = 0;
+  std::string why;
+};
+
+struct IngestReport {
+  std::vector<std::string> added;
+  std::vector<std::string> skipped;
+  std::vector<RejectedInput> rejected;
+  double seconds = 0;
+};
+
+/// Adds takes. Inputs that cannot be taken in are reported, not thrown. Throws Error for what concerns the
+/// archive or the machine. The archive is created with the first take that is stored.
+IngestReport ingest(const std::filesystem::path& archive, const IngestOptions& options,
+                    const ProgressSink& progress = {});
+
+/// A frame range, half-open; `end` beyond the take is an error.
+struct FrameRange {
+  long begin = 0;
+  long end = 0;
+};
+
+/// An archive opened for reading; it never writes. Throws Error: damaged, newer_version, failed.
+class Archive {
+ public:
+  explicit Archive(const std::filesystem::path& path);
+  ~Archive();
+  Archive(Archive&&) noexcept;
+  Archive& operator=(Archive&&) noexcept;
+
+  std::vector<TakeInfo> takes(const TakeFilter& filter = {}) const;
+  std::vector<ClipInfo> clips(const TakeFilter& filter = {}) const;
+  std::vector<SkeletonInfo> skeletons() const;
+  std::vector<std::string> subjects() const;
+  ArchiveStats stats() const;
+  ArchiveInfo info() const;
+
+  /// A take by name or unambiguous trailing part. Throws Error (not_found) with the candidates.
+  TakeInfo find_take(const std::string& id) const;
+  /// Clips by ID or unambiguous prefix of four digits or more: more than one where takes share content.
+  std::vector<ClipInfo> find_clips(const std::string& id) const;
+
+  /// What an ID names: a whole take, or the frames of a clip in its (first) take.
+  struct Selection {
+    TakeInfo take;
+    FrameRange frames;
+    std::optional<ClipInfo> clip;
+  };
+  Selection find(const std::string& id) const;
+
+  /// The decoded motion. Throws Error (damaged).
+  Take extract(const TakeInfo& take) const;
+  Take extract(const TakeInfo& take, FrameRange frames) const;
+
+  /// Reads and decodes everything; with `against`, measures each take against its source in that folder
+  /// and holds it to its fidelity.
+  VerifyReport verify(const std::optional<std::filesystem::path>& against = std::nullopt,
+                      const ReadOptions& read = {}, const ProgressSink& progress = {}) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Takes out takes by ID, all or none. Throws Error (not_found).
+void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids);
+
+/// Gives back the space of removed takes.
+void compact(const std::filesystem::path& archive);
+
+}  // namespace reprise

@@ -1,0 +1,36 @@
+// From channels to places in the world.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "reprise/model/skeleton.h"
+#include "reprise/model/take.h"
+
+namespace reprise {
+
+/// Where a joint is and how it is turned, in world axes; the place in millimetres.
+struct JointFrame {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d position;
+};
+
+/// frames x 3*joints, row-major, in millimetres: x, y, z of each joint and end site in file order.
+using PositionMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Rotation about a coordinate axis (0, 1, 2 for X, Y, Z) by an angle in radians.
+Eigen::Matrix3d axis_rotation(int axis, double radians);
+
+/// The product E of a joint's rotation channels (skeleton.h); `channels` is a whole frame.
+Eigen::Matrix3d local_rotation(const Joint& joint, std::span<const double> channels);
+
+/// Forward kinematics of one frame. `channels` has skeleton.channel_count numbers, `joints` receives one
+/// frame a joint.
+void forward_kinematics(const Skeleton& skeleton, std::span<const double> channels,
+                        std::span<JointFrame> joints);
+
+/// Forward kinematics of every frame.
+PositionMatrix joint_positions(const Skeleton& skeleton, const ChannelMatrix& channels);
+
+}  // namespace reprise

@@ -1,0 +1,52 @@
+// The error measures that every figure of the project uses (docs/measures.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reprise/model/kinematics.h"
+
+namespace reprise {
+
+/// Distances between the same joints of two motions, over all joints, end sites and frames; millimetres.
+struct PositionErrors {
+  double mean = 0;
+  double rms = 0;
+  double p99 = 0;
+  double max = 0;
+};
+
+/// Mean horizontal speed of the foot joints (mm/s) while the original's are in contact with the floor.
+struct FootSkate {
+  double original = 0;
+  double decoded = 0;
+};
+
+struct Comparison {
+  long frames = 0;          ///< frames that both have
+  long missing_frames = 0;  ///< frames that only one of them has
+  PositionErrors errors;
+  double d_percent = 0;  ///< 100 |A - A'|_F / |A - E(A)|_F; 0 where the original does not move
+  std::optional<FootSkate> foot_skate;  ///< none without foot joints or contacts
+};
+
+/// Both frames x 3*joints in millimetres with the same number of columns; compares the frames that both have.
+PositionErrors position_errors(const PositionMatrix& original, const PositionMatrix& decoded);
+
+/// Distance of each joint in each frame (frames x joints, row-major order), the frames that both have.
+std::vector<float> joint_distances(const PositionMatrix& original, const PositionMatrix& decoded);
+
+/// mean, rms, p99 and max of a set of distances, which is reordered. p99 is interpolated linearly.
+PositionErrors summarise_distances(std::vector<float>& distances);
+
+/// A joint's name, with an end site's being "End" and the name of none; a foot joint is one whose name has foot, toe or
+/// ankle in it, in any case. Contact: within 50 mm of the floor (5th percentile of the heights of all
+/// foot joints of the original) and slower than 150 mm/s; speeds are central differences over 50 ms.
+std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatrix& original,
+                                    const PositionMatrix& decoded, double frame_rate);
+
+/// All of the above. Throws Error (failed) where the two have different joints.
+Comparison compare_takes(const Take& original, const Take& decoded);
+
+}  // namespace reprise

@@ -1,0 +1,39 @@
+// One recorded motion.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reprise/model/skeleton.h"
+
+namespace reprise {
+
+/// frames x channels, row-major; lengths in the file's unit, rotations in degrees.
+using ChannelMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// What a motion file says besides its numbers, so that what comes out looks like what came in.
+struct TakeLayout {
+  std::string frame_time_text;  ///< BVH: the frame time as written, such as "0.0333333"
+  std::string amc_header;       ///< AMC: the lines before the first frame, byte for byte
+  /// AMC: indices of the joints that have a line in each frame, in the file's order. A joint with
+  /// channels that is not among them keeps zeros.
+  std::vector<int> amc_joints;
+  long first_frame_number = 1;  ///< AMC: the number of its first frame
+  bool radians = false;         ///< AMC: rotations are written in radians
+};
+
+struct Take {
+  std::string name;  ///< path under the ingested folder without extension, with '/'
+  std::shared_ptr<const Skeleton> skeleton;
+  ChannelMatrix channels;  ///< frames x skeleton->channel_count
+  double frame_rate = 0;   ///< frames a second; greater than 0
+  bool frame_rate_assumed = false;  ///< the file does not say it (AMC), or says 0 (BVH)
+  TakeLayout layout;
+
+  long frames() const { return channels.rows(); }
+  double seconds() const { return static_cast<double>(frames()) / frame_rate; }
+};
+
+}  // namespace reprise

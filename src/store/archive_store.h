@@ -1,0 +1,130 @@
+// The one door to the archive file: typed records in, typed records out. Nothing outside this folder knows
+// SQL, and nothing in it knows what is in a blob.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reprise/archive.h"
+
+namespace reprise {
+
+using Bytes = std::vector<std::uint8_t>;
+using Digest = std::array<std::uint8_t, 16>;  ///< BLAKE2b-128
+
+/// Joints, hierarchy and channels that takes share (same_structure).
+struct SkeletonRecord {
+  std::int64_t id = 0;
+  Digest structure{};  ///< digest of structure_bytes
+  MotionFormat format = MotionFormat::bvh;
+  std::size_t joints = 0;
+  std::size_t channels = 0;
+  std::string root;
+};
+
+/// One actor's offsets and lengths: the source text of a skeleton.
+struct ProportionsRecord {
+  std::int64_t id = 0;
+  std::int64_t skeleton = 0;
+  Digest digest{};  ///< of source_text, asf_name and unit
+  std::string asf_name;
+  double millimetres_per_unit = 10;
+  std::string source_text;
+};
+
+/// A coefficient space: axes and what else the coder needs before a take can be decoded.
+struct SpaceRecord {
+  std::int64_t id = 0;
+  std::int64_t skeleton = 0;
+  std::int64_t base = 0;  ///< the space that this one extends, or 0
+  Bytes data;
+};
+
+struct TakeRecord {
+  TakeInfo info;  ///< id, skeleton and payload_bytes are filled in by the store
+  std::int64_t proportions = 0;
+  std::int64_t space = 0;
+  Digest content{};        ///< of the source's structure and channel values: equal content, equal digest
+  Bytes error_quantiles;   ///< sketch of the distances, opaque here
+  Bytes motion;            ///< the coded take
+  /// Bytes of `motion` by what they are spent on; they add up to motion.size().
+  std::vector<std::pair<std::string, std::uint64_t>> spent;
+};
+
+/// A clip of a take (what ClipInfo says, with rows for names).
+struct ClipRecord {
+  std::uint64_t id = 0;  ///< content address
+  std::int64_t take = 0;
+  ClipKind kind = ClipKind::unique;
+  std::int64_t group = 0;
+  long first_frame = 0;
+  long frames = 0;
+  std::uint64_t primary = 0;  ///< content address of the primary, or 0
+  std::uint64_t bytes = 0;
+};
+
+class ArchiveStore {
+ public:
+  /// Throws Error: failed (cannot be opened), damaged, newer_version. Never writes, but for rolling back
+  /// a transaction that a dead writer left.
+  static ArchiveStore open_for_reading(const std::filesystem::path& path);
+  /// Creates the file with the first commit if it is not there. Throws Error (locked) at once if another
+  /// process holds it for writing.
+  static ArchiveStore open_for_writing(const std::filesystem::path& path);
+  ~ArchiveStore();
+  ArchiveStore(ArchiveStore&&) noexcept;
+  ArchiveStore& operator=(ArchiveStore&&) noexcept;
+
+  // Writing: everything between begin() and commit() is stored together or not at all. Each throws Error
+  // (limit where the disk is full, failed, damaged). A store whose commit failed takes no more writes.
+  void begin();
+  void commit();
+  void roll_back();
+  std::int64_t add_skeleton(const SkeletonRecord& record);
+  std::int64_t add_proportions(const ProportionsRecord& record);
+  std::int64_t add_space(const SpaceRecord& record);
+  std::int64_t add_take(const TakeRecord& take, std::span<const ClipRecord> clips);
+  void remove_take(std::int64_t id);  ///< with its clips; what nothing refers to any more goes with it
+  void compact();                     ///< outside a transaction
+
+  // Reading. Every row that is returned has passed its digest; one that has not throws Error (damaged).
+  std::optional<SkeletonRecord> find_skeleton(const Digest& structure) const;
+  std::optional<ProportionsRecord> find_proportions(const Digest& digest) const;
+  SkeletonRecord skeleton(std::int64_t id) const;
+  ProportionsRecord proportions(std::int64_t id) const;
+  SpaceRecord space(std::int64_t id) const;
+  std::vector<std::int64_t> spaces_of_skeleton(std::int64_t skeleton) const;  ///< in order of creation
+  std::optional<TakeRecord> find_take(const std::string& name) const;  ///< without `motion`
+  TakeRecord take(std::int64_t id) const;                              ///< without `motion`
+  Bytes motion(std::int64_t take) const;
+  std::vector<std::string> take_names_ending_in(const std::string& tail, std::size_t most) const;
+  std::vector<TakeInfo> takes(const TakeFilter& filter) const;  ///< by name
+  std::vector<ClipRecord> clips(std::span<const std::int64_t> takes) const;  ///< by take name, first frame
+  std::vector<ClipRecord> clips_with_prefix(const std::string& hexadecimal) const;
+  std::vector<SkeletonInfo> skeletons() const;
+  std::vector<std::string> subjects() const;
+  /// All but error_mm.p99, which needs the sketches: they are handed to `sketch` take by take with the
+  /// number of distances (joints x frames) that each stands for.
+  ArchiveStats stats(const std::function<void(const Bytes&, std::uint64_t)>& sketch) const;
+  Digest content_digest() const;  ///< independent of the order in which takes were added
+  std::string written_by() const;
+  int format_version() const;
+
+  /// Reads every page and every row; returns what is wrong, in words. Blobs are checked against their
+  /// digests but not decoded.
+  std::vector<Damage> check_structure() const;
+
+ private:
+  struct Impl;
+  explicit ArchiveStore(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reprise
