@@ -114,10 +114,11 @@ struct ArchiveInfo {
 struct Damage {
   std::string id;  ///< take, clip or part of the archive
   std::string why;
+  bool outside_fidelity = false;  ///< a take that decodes, but is further from its source than promised
 };
 
 struct VerifyReport {
-  bool ok = true;
+  bool ok = true;  ///< nothing is in `damaged`
   std::size_t takes = 0;
   std::size_t clips = 0;
   std::vector<Damage> damaged;
