@@ -1,0 +1,92 @@
+#include "cli/compare_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+
+#include "cli/json_output.h"
+#include "cli/text.h"
+#include "reprise/error.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+bool is_amc(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return extension == ".amc";
+}
+
+std::string read_stdin() {
+  std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
+  if (text.size() > InputLimits::file_bytes) {
+    throw Error(ErrorCode::failed,
+                fmt::format("A motion file has at most {} bytes.", InputLimits::file_bytes),
+                {"stdin", 0});
+  }
+  return text;
+}
+
+/// The take on stdin, in the format of the other file and, if that is AMC, with its skeleton.
+Take read_motion_stdin(const fs::path& other, const ReadOptions& options) {
+  const std::string text = read_stdin();
+  if (!is_amc(other)) return read_bvh(text, "stdin", options.bvh_millimetres_per_unit);
+  const fs::path asf = options.asf ? *options.asf : find_asf(other);
+  const auto skeleton =
+      std::make_shared<const Skeleton>(read_asf(read_whole_file(asf), asf.string()));
+  return read_amc(text, "stdin", skeleton, options.amc_frame_rate);
+}
+
+Take read_side(const fs::path& path, const fs::path& other, const ReadOptions& options) {
+  return path == "-" ? read_motion_stdin(other, options) : read_motion_file(path, options);
+}
+
+std::string comparison_text(const Comparison& comparison) {
+  Table table({{"", Table::Align::left}, {"", Table::Align::right}});
+  table.add({"frames", std::to_string(comparison.frames)});
+  table.add({"missing frames", std::to_string(comparison.missing_frames)});
+  table.add({"mean", format_number(comparison.errors.mean, 3) + " mm"});
+  table.add({"rms", format_number(comparison.errors.rms, 3) + " mm"});
+  table.add({"p99", format_number(comparison.errors.p99, 3) + " mm"});
+  table.add({"max", format_number(comparison.errors.max, 3) + " mm"});
+  table.add({"d", format_number(comparison.d_percent, 3) + " %"});
+  if (comparison.foot_skate) {
+    table.add(
+        {"foot skate, original", format_number(comparison.foot_skate->original, 2) + " mm/s"});
+    table.add({"foot skate, decoded", format_number(comparison.foot_skate->decoded, 2) + " mm/s"});
+  }
+  return table.text();
+}
+
+}  // namespace
+
+void CompareCommand::setup(CLI::App& app) {
+  add_path(app, "ORIGINAL", original_, "A BVH or AMC file, or - for stdin")->required();
+  add_path(app, "DECODED", decoded_, "The file to measure, or - for stdin")->required();
+  add_read_options(app, read_);
+  add_examples(app, {"reprise compare takes/walk_01.bvh out/walk_01.bvh",
+                     "reprise extract lib.rpz walk_01 -o - | reprise compare takes/walk_01.bvh -"});
+}
+
+void CompareCommand::check() {
+  if (original_ == "-" && decoded_ == "-") {
+    throw Error(ErrorCode::usage, "Only one of ORIGINAL and DECODED can be stdin.");
+  }
+}
+
+ExitCode CompareCommand::run(Console& console) {
+  const Take original = read_side(original_, decoded_, read_);
+  const Take decoded = read_side(decoded_, original_, read_);
+  const Comparison comparison = compare_takes(original, decoded);
+  console.result(comparison_text(comparison));
+  console.document(to_json(comparison));
+  return exit_done;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,82 @@
+#include "cli/console.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+
+#include "cli/interruption.h"
+#include "reprise/error.h"
+
+namespace reprise::cli {
+namespace {
+
+/// https://no-color.org: any value but the empty one means no colour.
+bool colour_wanted(const ConsoleOptions& options) {
+  const char* no_color = std::getenv("NO_COLOR");
+  if (no_color != nullptr && *no_color != '\0') return false;
+  const char* terminal = std::getenv("TERM");
+  if (terminal != nullptr && std::string_view(terminal) == "dumb") return false;
+  return options.color == "auto";
+}
+
+void write(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+void write_line(std::string_view line) {
+  write(stderr, std::string(line) + "\n");
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+Console::Console(const ConsoleOptions& options)
+    : options_(options),
+      bold_results_(colour_wanted(options) && isatty(STDOUT_FILENO) == 1),
+      bold_messages_(colour_wanted(options) && isatty(STDERR_FILENO) == 1) {}
+
+void Console::result(std::string_view text) const {
+  if (!options_.json) write(stdout, text);
+}
+
+void Console::document(const Json& json) const {
+  if (!options_.json) return;
+  // A name need not be UTF-8, a document must be.
+  write(stdout, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void Console::bytes(std::string_view bytes) const { write(stdout, bytes); }
+
+void Console::message(std::string_view line) const {
+  if (!options_.quiet) write_line(line);
+}
+
+void Console::detail(std::string_view line) const {
+  if (options_.verbose && !options_.quiet) write_line(line);
+}
+
+void Console::complaint(std::string_view line) const {
+  write_line(bold_messages_ ? "\033[31m" + std::string(line) + "\033[0m" : std::string(line));
+}
+
+std::FILE* Console::progress_terminal() const {
+  return !options_.quiet && isatty(STDERR_FILENO) == 1 ? stderr : nullptr;
+}
+
+void Console::flush() const {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  if (errno == ENOSPC) throw Error(ErrorCode::limit, "The disk that stdout goes to is full.");
+  throw Error(ErrorCode::failed, "The result could not be written to stdout.");
+}
+
+ProgressSink progress_sink(ProgressBar& bar) {
+  return [&bar](const Progress& progress) {
+    bar.show(progress);
+    return !InterruptionGuard::requested();
+  };
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,71 @@
+#include "cli/error_report.h"
+
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include "cli/text.h"
+
+namespace reprise::cli {
+namespace {
+
+std::string error_name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::failed:
+    case ErrorCode::rejected_input:
+      return "failed";
+    case ErrorCode::usage:
+      return "usage";
+    case ErrorCode::damaged:
+      return "damaged";
+    case ErrorCode::newer_version:
+      return "newer_version";
+    case ErrorCode::locked:
+      return "locked";
+    case ErrorCode::not_found:
+      return "not_found";
+    case ErrorCode::limit:
+      return "limit";
+    case ErrorCode::interrupted:
+      return "interrupted";
+  }
+  return "failed";
+}
+
+}  // namespace
+
+ExitCode exit_code(ErrorCode code) {
+  if (code == ErrorCode::rejected_input) return static_cast<int>(ErrorCode::failed);
+  return static_cast<int>(code);
+}
+
+Json error_document(const Error& error) {
+  Json fields = {{"code", exit_code(error.code())},
+                 {"name", error_name(error.code())},
+                 {"message", error.reason()}};
+  if (!error.place().file.empty()) fields["file"] = error.place().file;
+  if (error.place().line > 0) fields["line"] = error.place().line;
+  if (!error.advice().empty()) fields["advice"] = error.advice();
+  return {{"error", fields}};
+}
+
+ExitCode report(const Error& error, const Console& console) {
+  console.complaint("reprise: " + printable(error.what()));
+  if (!error.advice().empty()) console.complaint(printable(error.advice()));
+  console.document(error_document(error));
+  return exit_code(error.code());
+}
+
+Error as_error(const std::exception& exception) {
+  if (const auto* known = dynamic_cast<const Error*>(&exception)) return *known;
+  if (dynamic_cast<const std::bad_alloc*>(&exception) != nullptr) {
+    return Error(ErrorCode::limit, "Out of memory.");
+  }
+  if (const auto* system = dynamic_cast<const std::system_error*>(&exception)) {
+    const bool full = system->code() == std::errc::no_space_on_device;
+    return Error(full ? ErrorCode::limit : ErrorCode::failed, system->what());
+  }
+  return Error(ErrorCode::failed, exception.what());
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,22 @@
+// How an error is told: a sentence on stderr, an exit code, and a document with --json.
+#pragma once
+
+#include "cli/command.h"
+#include "reprise/error.h"
+
+namespace reprise::cli {
+
+/// The code that the process ends with. A rejected input ends a command that needs it with
+/// "failed".
+ExitCode exit_code(ErrorCode code);
+
+/// {"error":{"code","name","message"[,"file"][,"line"][,"advice"]}}
+Json error_document(const Error& error);
+
+/// Tells it on stderr, and with --json on stdout; returns the exit code.
+ExitCode report(const Error& error, const Console& console);
+
+/// What an exception means to a user, who knows only Error.
+Error as_error(const std::exception& exception);
+
+}  // namespace reprise::cli

@@ -1,0 +1,196 @@
+#include "cli/extract_command.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "cli/interruption.h"
+#include "cli/json_output.h"
+#include "cli/output_file.h"
+#include "cli/text.h"
+#include "reprise/error.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+FidelityTier parse_fidelity(const std::string& text) {
+  for (const FidelityTier tier :
+       {FidelityTier::preview, FidelityTier::standard, FidelityTier::fine, FidelityTier::exact}) {
+    if (text == tier_name(tier)) return tier;
+  }
+  throw Error(ErrorCode::usage, "--fidelity takes preview, standard, fine or exact, not \"" +
+                                    printable(text) + "\".");
+}
+
+MotionFormat parse_format(const std::string& text) {
+  for (const MotionFormat format : {MotionFormat::bvh, MotionFormat::asf_amc}) {
+    if (text == format_name(format)) return format;
+  }
+  throw Error(ErrorCode::usage, "--format takes bvh or amc, not \"" + printable(text) + "\".");
+}
+
+/// Writes takes into files, each AMC with its ASF.
+class MotionWriter {
+ public:
+  explicit MotionWriter(bool overwrite) : overwrite_(overwrite) {}
+
+  /// Returns the files written, the motion first.
+  std::vector<fs::path> write(const Take& take, const fs::path& target) {
+    std::vector<fs::path> files{target};
+    if (take.skeleton->format == MotionFormat::asf_amc) {
+      files.push_back(write_skeleton(*take.skeleton, target));
+    }
+    write_file_atomically(target, write_motion(take), overwrite_);
+    return files;
+  }
+
+ private:
+  /// Takes of one folder usually share their ASF: it is written once, and stays where it is there
+  /// already.
+  fs::path write_skeleton(const Skeleton& skeleton, const fs::path& motion) {
+    const std::string stem = skeleton.asf_name.empty() ? motion.stem().string() : skeleton.asf_name;
+    fs::path target = path_inside(motion.parent_path(), file_name_of(stem));
+    const auto written = written_.find(target.string());
+    if (written != written_.end()) {
+      if (written->second == skeleton.source_text) return target;
+      // Another skeleton of the same name; an ASF with the take's own name is found before any
+      // other.
+      target = fs::path(motion).replace_extension(".asf");
+    }
+    if (target == motion) {
+      throw Error(ErrorCode::failed, "The skeleton and the motion would be one file.",
+                  {target.string(), 0}, "Give the motion a name that ends in .amc.");
+    }
+    if (!file_has_content(target, skeleton.source_text)) {
+      write_file_atomically(target, skeleton.source_text, overwrite_);
+    }
+    written_[target.string()] = skeleton.source_text;
+    return target;
+  }
+
+  /// A name from an archive as one component of a path.
+  static std::string file_name_of(const std::string& stem) {
+    if (stem.find('/') != std::string::npos) {
+      throw Error(ErrorCode::damaged,
+                  "The archive names a skeleton in another folder: \"" + stem + "\".");
+    }
+    return stem + ".asf";
+  }
+
+  bool overwrite_;
+  std::map<std::string, std::string> written_;  ///< path of an ASF and its text
+};
+
+Json entry_of(const PlannedExtract& entry, const std::vector<fs::path>& files) {
+  Json json = {{"id", entry.id},
+               {"take", entry.take.name},
+               {"first_frame", entry.frames.begin},
+               {"frames", entry.frames.end - entry.frames.begin},
+               {"file", files.front().string()}};
+  if (files.size() > 1) json["asf"] = files.back().string();
+  return json;
+}
+
+Take decode(const Archive& archive, const PlannedExtract& entry) {
+  if (entry.frames.begin == 0 && entry.frames.end == entry.take.frames) {
+    return archive.extract(entry.take);
+  }
+  return archive.extract(entry.take, entry.frames);
+}
+
+/// The paths of all motion files, each checked to be inside `folder` and, unless `overwrite`, not
+/// to exist.
+std::vector<fs::path> targets_in(const fs::path& folder, const std::vector<PlannedExtract>& plan,
+                                 bool overwrite) {
+  std::vector<fs::path> targets;
+  for (const PlannedExtract& entry : plan) {
+    targets.push_back(path_inside(folder, entry.file_name));
+    refuse_links_below(folder, entry.file_name);
+    if (!overwrite && fs::exists(fs::symlink_status(targets.back()))) {
+      refuse_existing(targets.back());
+    }
+  }
+  return targets;
+}
+
+}  // namespace
+
+void ExtractCommand::setup(CLI::App& app) {
+  add_archive(app, archive_);
+  add_many(app, "ID", request_.ids, "Takes or clips");
+  app.add_flag("--all", request_.all, "Every take");
+  add_path(app, "-o,--output", file_, "The file to write for one ID; - is stdout");
+  add_path(app, "-d,--directory", folder_, "The folder for many; the tree of names is kept", "DIR");
+  app.add_option_function<std::string>(
+         "--frames",
+         [this](const std::string& text) {
+           request_.frames = parse_frame_interval("--frames", text);
+         },
+         "Only frames A up to, not including, B of the take, from 0; either may be left out")
+      ->type_name("A:B");
+  app.add_option_function<std::string>(
+         "--time",
+         [this](const std::string& text) { request_.time = parse_time_interval("--time", text); },
+         "The same in seconds")
+      ->type_name("A:B");
+  app.add_option_function<std::string>(
+         "--fidelity",
+         [this](const std::string& text) { request_.fidelity = parse_fidelity(text); },
+         "A fidelity that is not higher than the stored one")
+      ->type_name("TIER");
+  app.add_option_function<std::string>(
+         "--format", [this](const std::string& text) { request_.format = parse_format(text); },
+         "bvh or amc; it must be the format of the source")
+      ->type_name("FORMAT");
+  app.add_flag("--overwrite", overwrite_, "Replace files that exist");
+  add_examples(app, {"reprise extract lib.rpz walk_01 -o walk_01.bvh",
+                     "reprise extract lib.rpz walk_01 --time 2:4.5 -o -",
+                     "reprise extract lib.rpz --all -d out/"});
+}
+
+void ExtractCommand::check() {
+  const auto refuse = [](const std::string& why) { throw Error(ErrorCode::usage, why); };
+  if (request_.all == !request_.ids.empty()) refuse("Name takes or clips, or give --all.");
+  if (file_.empty() == folder_.empty()) {
+    refuse("Say where to write: -o FILE for one ID (- is stdout), or -d DIR for any number.");
+  }
+  if (folder_ == "-") refuse("-d takes a folder; -o - writes to stdout.");
+  if (!file_.empty() && (request_.all || request_.ids.size() > 1)) {
+    refuse("-o is for one ID; -d DIR takes any number.");
+  }
+  if (request_.frames && request_.time) refuse("--frames and --time exclude each other.");
+}
+
+ExitCode ExtractCommand::run(Console& console) {
+  const InterruptionGuard guard;
+  const Archive archive(archive_);
+  const std::vector<PlannedExtract> plan = plan_extract(archive, request_);
+  if (file_ == "-") {
+    console.bytes(write_motion(decode(archive, plan.front())));
+    return exit_done;
+  }
+  std::vector<fs::path> targets;
+  if (folder_.empty()) {
+    targets.push_back(file_);
+    if (!overwrite_ && fs::exists(fs::symlink_status(file_))) refuse_existing(file_);
+  } else {
+    targets = targets_in(folder_, plan, overwrite_);
+  }
+
+  Json entries = Json::array();
+  MotionWriter writer(overwrite_);
+  ProgressBar bar("extract", console.progress_terminal());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    InterruptionGuard::check();
+    bar.show({i, plan.size(), plan[i].take.name});
+    const Take take = decode(archive, plan[i]);
+    if (!folder_.empty()) fs::create_directories(targets[i].parent_path());
+    entries.push_back(entry_of(plan[i], writer.write(take, targets[i])));
+  }
+  console.document({{"extracted", entries}});
+  return exit_done;
+}
+
+}  // namespace reprise::cli

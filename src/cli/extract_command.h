@@ -1,0 +1,29 @@
+// reprise extract: decoded motion out of an archive.
+#pragma once
+
+#include "cli/command.h"
+#include "cli/extract_plan.h"
+
+namespace reprise::cli {
+
+class ExtractCommand : public Command {
+ public:
+  std::string name() const override { return "extract"; }
+  std::string description() const override {
+    return "Write decoded motion, in the format of its source";
+  }
+  void setup(CLI::App& app) override;
+  void check() override;
+  ExitCode run(Console& console) override;
+
+ private:
+  std::filesystem::path archive_;
+  ExtractRequest request_;
+  std::filesystem::path file_;
+  std::filesystem::path folder_;
+  std::string frames_;
+  std::string time_;
+  bool overwrite_ = false;
+};
+
+}  // namespace reprise::cli

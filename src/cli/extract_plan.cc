@@ -1,0 +1,86 @@
+#include "cli/extract_plan.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "cli/json_output.h"
+#include "reprise/error.h"
+
+namespace reprise::cli {
+namespace {
+
+/// A clip's own file beside its take's. The part up to the first '_' stays, by which an ASF is
+/// found.
+std::string clip_file_name(const TakeInfo& take, const ClipInfo& clip) {
+  std::string name = take.name;
+  const std::string extension = "." + format_name(take.format);
+  if (name.ends_with(extension)) name.resize(name.size() - extension.size());
+  return name + "_" + clip.id + extension;
+}
+
+void check_wishes(const TakeInfo& take, const ExtractRequest& request) {
+  if (request.fidelity && *request.fidelity > take.fidelity.tier) {
+    throw Error(ErrorCode::usage,
+                fmt::format("{} is stored as {}; it cannot be extracted as {}.", take.name,
+                            tier_name(take.fidelity.tier), tier_name(*request.fidelity)));
+  }
+  if (request.format && *request.format != take.format) {
+    throw Error(ErrorCode::usage,
+                fmt::format("{} comes from {}; it cannot be written as {} yet.", take.name,
+                            format_name(take.format), format_name(*request.format)));
+  }
+}
+
+PlannedExtract plan_one(const std::string& id, const Archive::Selection& selection,
+                        const ExtractRequest& request) {
+  const TakeInfo& take = selection.take;
+  check_wishes(take, request);
+  FrameRange frames = selection.frames;
+  if (request.frames) frames = frames_of(*request.frames, frames);
+  if (request.time) frames = frames_of(*request.time, frames, take.frame_rate);
+  const std::string file_name = selection.clip ? clip_file_name(take, *selection.clip)
+                                               : motion_file_name(take.name, take.format);
+  return {id, take, frames, file_name};
+}
+
+std::vector<PlannedExtract> plan_all(const Archive& archive, const ExtractRequest& request) {
+  std::vector<PlannedExtract> plan;
+  if (request.all) {
+    for (const TakeInfo& take : archive.takes()) {
+      plan.push_back(plan_one(take.name, {take, {0, take.frames}, std::nullopt}, request));
+    }
+    return plan;
+  }
+  for (const std::string& id : request.ids) plan.push_back(plan_one(id, archive.find(id), request));
+  return plan;
+}
+
+}  // namespace
+
+std::string motion_file_name(std::string_view name, MotionFormat format) {
+  const std::string extension = "." + format_name(format);
+  return name.ends_with(extension) ? std::string(name) : std::string(name) + extension;
+}
+
+std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request) {
+  std::vector<PlannedExtract> plan;
+  std::map<std::string, PlannedExtract> seen;
+  for (PlannedExtract& entry : plan_all(archive, request)) {
+    const auto [found, fresh] = seen.emplace(entry.file_name, entry);
+    if (fresh) {
+      plan.push_back(std::move(entry));
+      continue;
+    }
+    const PlannedExtract& other = found->second;
+    const bool same = other.take.id == entry.take.id && other.frames.begin == entry.frames.begin &&
+                      other.frames.end == entry.frames.end;
+    if (!same) {
+      throw Error(ErrorCode::failed, fmt::format("{} and {} would both be written to {}.", other.id,
+                                                 entry.id, entry.file_name));
+    }
+  }
+  return plan;
+}
+
+}  // namespace reprise::cli

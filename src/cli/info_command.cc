@@ -1,0 +1,154 @@
+#include "cli/info_command.h"
+
+#include <fmt/format.h>
+
+#include "cli/json_output.h"
+#include "cli/text.h"
+
+namespace reprise::cli {
+namespace {
+
+using enum Table::Align;
+
+Table facts() { return Table({{"", left}, {"", left}}); }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string archive_text(const ArchiveInfo& info, const std::vector<std::string>& subjects) {
+  const ArchiveStats& stats = info.stats;
+  Table table = facts();
+  table.add({"content digest", info.content_digest});
+  table.add({"format version", std::to_string(info.format_version)});
+  table.add({"written by", info.written_by});
+  table.add({"takes", fmt::format("{}, {} frames, {} of motion", stats.takes, stats.frames,
+                                  format_clock(stats.seconds))});
+  table.add({"clips", fmt::format("{} primary, {} repeated, {} unique", stats.primary_clips,
+                                  stats.repeated_clips, stats.unique_clips)});
+  table.add({"subjects", fmt::format("{}: {}", subjects.size(), joined(subjects))});
+  table.add({"skeletons", std::to_string(stats.skeletons)});
+  table.add({"archive", format_size(stats.archive_bytes)});
+  table.add({"raw", fmt::format("{}, {}", format_size(stats.raw_bytes),
+                                format_ratio(stats.raw_bytes, stats.archive_bytes))});
+  table.add({"text", fmt::format("{}, {}", format_size(stats.text_bytes),
+                                 format_ratio(stats.text_bytes, stats.archive_bytes))});
+  table.add({"error", format_errors(stats.error_mm)});
+  return table.text();
+}
+
+Json archive_document(const ArchiveInfo& info, const std::vector<std::string>& subjects) {
+  return {{"content_digest", info.content_digest},
+          {"format_version", info.format_version},
+          {"written_by", info.written_by},
+          {"subjects", subjects},
+          {"stats", to_json(info.stats)}};
+}
+
+std::string limit_text(const Fidelity& fidelity) {
+  return fmt::format("{}, {} at most {} mm", tier_name(fidelity.tier),
+                     fidelity.tier == FidelityTier::preview ? "mean error" : "every joint",
+                     fidelity.limit_mm);
+}
+
+std::string take_text(const TakeInfo& take, const std::vector<ClipInfo>& clips) {
+  Table table = facts();
+  table.add({"take", take.name});
+  if (!take.subject.empty()) table.add({"subject", take.subject});
+  if (!take.description.empty()) table.add({"description", take.description});
+  if (!take.tags.empty()) table.add({"tags", take.tags});
+  table.add({"format", format_name(take.format)});
+  table.add(
+      {"length", fmt::format("{} frames at {:.6g} Hz{}, {:.3f} s", take.frames, take.frame_rate,
+                             take.frame_rate_assumed ? " (assumed)" : "", take.seconds())});
+  table.add({"skeleton", std::to_string(take.skeleton)});
+  table.add({"fidelity", limit_text(take.fidelity)});
+  table.add({"error", format_errors(take.error_mm)});
+  table.add({"raw", format_size(take.raw_bytes)});
+  table.add({"text", format_size(take.text_bytes)});
+  table.add({"payload", fmt::format("{}, {} of raw", format_size(take.payload_bytes),
+                                    format_ratio(take.raw_bytes, take.payload_bytes))});
+  table.add({"source digest", take.source_digest});
+  for (const ClipInfo& clip : clips) {
+    table.add({"clip", fmt::format("{}  {}  {:.2f} s to {:.2f} s", clip.id,
+                                   clip_kind_name(clip.kind), clip.start, clip.end)});
+  }
+  return table.text();
+}
+
+Json clips_array(const std::vector<ClipInfo>& clips) {
+  Json entries = Json::array();
+  for (const ClipInfo& clip : clips) entries.push_back(to_json(clip));
+  return entries;
+}
+
+Json take_document(const TakeInfo& take, const std::vector<ClipInfo>& clips) {
+  Json fields = to_json(take);
+  fields["description"] = take.description;
+  fields["tags"] = take.tags;
+  fields["skeleton"] = take.skeleton;
+  fields["frame_rate_assumed"] = take.frame_rate_assumed;
+  fields["limit_mm"] = take.fidelity.limit_mm;
+  fields["text_bytes"] = take.text_bytes;
+  fields["source_digest"] = take.source_digest;
+  fields["clips"] = clips_array(clips);
+  return {{"take", fields}};
+}
+
+std::string clips_text(const std::vector<ClipInfo>& clips) {
+  Table table = facts();
+  for (const ClipInfo& clip : clips) {
+    table.add({"clip", clip.id});
+    table.add({"take", clip.take});
+    table.add({"kind", clip_kind_name(clip.kind)});
+    if (!clip.primary.empty()) table.add({"primary", clip.primary});
+    if (clip.group != 0) table.add({"group", std::to_string(clip.group)});
+    table.add({"frames", fmt::format("{}:{}", clip.first_frame, clip.first_frame + clip.frames)});
+    table.add({"time", fmt::format("{:.3f} s to {:.3f} s", clip.start, clip.end)});
+    table.add({"size", format_size(clip.bytes)});
+  }
+  return table.text();
+}
+
+/// The clips of exactly this take: a filter takes the end of a name, too.
+std::vector<ClipInfo> clips_of(const Archive& archive, const TakeInfo& take) {
+  TakeFilter filter;
+  filter.take = take.name;
+  std::vector<ClipInfo> clips = archive.clips(filter);
+  std::erase_if(clips, [&](const ClipInfo& clip) { return clip.take != take.name; });
+  return clips;
+}
+
+}  // namespace
+
+void InfoCommand::setup(CLI::App& app) {
+  add_archive(app, archive_);
+  app.add_option("ID", id_, "A take or a clip; without it, the archive")->type_name("");
+  add_examples(app, {"reprise info lib.rpz", "reprise info lib.rpz walk_01"});
+}
+
+ExitCode InfoCommand::run(Console& console) {
+  const Archive archive(archive_);
+  if (id_.empty()) {
+    const ArchiveInfo info = archive.info();
+    const auto subjects = archive.subjects();
+    console.result(archive_text(info, subjects));
+    console.document(archive_document(info, subjects));
+    return exit_done;
+  }
+  const Archive::Selection selection = archive.find(id_);
+  if (selection.clip) {
+    const auto clips = archive.find_clips(id_);
+    console.result(clips_text(clips));
+    console.document({{"clips", clips_array(clips)}});
+  } else {
+    const auto clips = clips_of(archive, selection.take);
+    console.result(take_text(selection.take, clips));
+    console.document(take_document(selection.take, clips));
+  }
+  return exit_done;
+}
+
+}  // namespace reprise::cli

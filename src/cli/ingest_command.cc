@@ -1,0 +1,149 @@
+#include "cli/ingest_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "cli/interruption.h"
+#include "cli/json_output.h"
+#include "cli/text.h"
+#include "reprise/error.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+constexpr double least_mean_mm = 0.001;
+constexpr double greatest_mean_mm = 10000;
+constexpr std::uint64_t greatest_jobs = 1024;
+
+[[noreturn]] void refuse_fidelity(const std::string& asked) {
+  throw Error(ErrorCode::usage,
+              fmt::format("{} is not available: preview is the only fidelity yet.", asked), {},
+              "--fidelity preview, which is the default, with --mean-mm for its mean error.");
+}
+
+/// The prefix without the slashes at its end. Names in an archive are relative and have no "..".
+std::string checked_prefix(std::string prefix) {
+  prefix.erase(prefix.find_last_not_of('/') + 1);
+  bool good = !prefix.empty() && prefix.front() != '/';
+  for (const fs::path& component : fs::path(prefix)) {
+    good = good && !component.empty() && component != "." && component != "..";
+  }
+  if (!good || prefix.find("//") != std::string::npos) {
+    throw Error(ErrorCode::usage,
+                "--prefix takes a relative path of names, such as cmu or 2024/day1.");
+  }
+  return prefix;
+}
+
+/// The archive's figures; all 0 where no take has made it yet.
+ArchiveStats stats_of(const fs::path& archive) {
+  return fs::exists(archive) ? Archive(archive).stats() : ArchiveStats{};
+}
+
+std::string summary(const IngestReport& report, const ArchiveStats& stats, bool dry_run) {
+  Table table({{"", Table::Align::left}, {"", Table::Align::left}});
+  table.add({dry_run ? "would add" : "added",
+             fmt::format("{}, {} of motion", format_count(report.added.size(), "take"),
+                         format_clock(report.seconds))});
+  table.add({"skipped", format_count(report.skipped.size(), "take") + " that were there already"});
+  table.add({"rejected", format_count(report.rejected.size(), "input")});
+  if (stats.takes > 0) {
+    table.add(
+        {"archive", fmt::format("{}, {} of motion in {}", format_count(stats.takes, "take"),
+                                format_clock(stats.seconds), format_size(stats.archive_bytes))});
+    table.add({"raw", fmt::format("{}, {}", format_size(stats.raw_bytes),
+                                  format_ratio(stats.raw_bytes, stats.archive_bytes))});
+    table.add({"text", fmt::format("{}, {}", format_size(stats.text_bytes),
+                                   format_ratio(stats.text_bytes, stats.archive_bytes))});
+    table.add({"error", format_errors(stats.error_mm)});
+  }
+  return table.text();
+}
+
+Json document_of(const IngestReport& report, const ArchiveStats& stats) {
+  Json rejected = Json::array();
+  for (const RejectedInput& input : report.rejected) {
+    rejected.push_back({{"path", input.path}, {"line", input.line}, {"why", input.why}});
+  }
+  return {{"added", report.added},
+          {"skipped", report.skipped},
+          {"rejected", rejected},
+          {"seconds", report.seconds},
+          {"stats", to_json(stats)}};
+}
+
+std::string rejection_line(const RejectedInput& input) {
+  const std::string place =
+      input.line > 0 ? fmt::format("{}:{}", input.path, input.line) : input.path;
+  return printable(fmt::format("{}: {}", place, input.why));
+}
+
+}  // namespace
+
+void IngestCommand::setup(CLI::App& app) {
+  add_archive(app, archive_);
+  add_many(app, "PATH", paths_, "BVH and AMC files, or folders that are searched through")
+      ->required();
+  app.add_option_function<std::string>(
+         "--fidelity",
+         [](const std::string& text) {
+           if (text != "preview") refuse_fidelity("Fidelity \"" + printable(text) + "\"");
+         },
+         "How faithful the takes are stored: preview, the only one yet")
+      ->type_name("TIER");
+  app.add_option_function<std::string>(
+         "--bound-mm", [](const std::string&) { refuse_fidelity("A bound of one's own"); },
+         "Not available yet")
+      ->type_name("X")
+      ->group("");
+  add_number(app, "--mean-mm", options_.fidelity.limit_mm, least_mean_mm, greatest_mean_mm,
+             "Greatest mean joint error of a take, in millimetres (default 20)");
+  options_.jobs = std::max(1U, std::thread::hardware_concurrency());
+  add_whole_number(app, "--jobs", options_.jobs, 1, greatest_jobs,
+                   "Threads (default: all); the result is the same for any number");
+  add_read_options(app, options_.read);
+  add_path(app, "--metadata", metadata_, "CSV with the columns take, subject, description, tags");
+  app.add_option_function<std::string>(
+         "--prefix", [this](const std::string& text) { options_.prefix = checked_prefix(text); },
+         "Put P/ in front of the names of this ingest")
+      ->type_name("P");
+  app.add_flag("--replace", options_.replace, "Replace takes that are there with other content");
+  app.add_flag("--dry-run", options_.dry_run, "Say what would be done, and write nothing");
+  add_examples(
+      app, {"reprise ingest lib.rpz takes/", "reprise ingest lib.rpz cmu/ --fps 120 --mean-mm 10"});
+}
+
+void IngestCommand::check() {
+  for (const std::string& path : paths_) {
+    if (path.empty() || path == "-") {
+      throw Error(
+          ErrorCode::usage,
+          "PATH takes files and folders: a take is named by its file, which stdin has not.");
+    }
+    options_.paths.emplace_back(path);
+  }
+  if (metadata_ == "-") throw Error(ErrorCode::usage, "--metadata takes a file, not stdin.");
+  if (!metadata_.empty()) options_.metadata = metadata_;
+}
+
+ExitCode IngestCommand::run(Console& console) {
+  const InterruptionGuard guard;
+  IngestReport report;
+  {
+    ProgressBar bar("ingest", console.progress_terminal());
+    report = ingest(archive_, options_, progress_sink(bar));
+  }
+  for (const std::string& name : report.added) console.detail("added " + printable(name));
+  for (const std::string& name : report.skipped) console.detail("skipped " + printable(name));
+  for (const RejectedInput& input : report.rejected) console.complaint(rejection_line(input));
+  const ArchiveStats stats = stats_of(archive_);
+  if (!console.quiet()) console.result(summary(report, stats, options_.dry_run));
+  console.document(document_of(report, stats));
+  return report.rejected.empty() ? exit_done : static_cast<int>(ErrorCode::rejected_input);
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,25 @@
+// reprise ingest: adds takes to an archive.
+#pragma once
+
+#include "cli/command.h"
+
+namespace reprise::cli {
+
+class IngestCommand : public Command {
+ public:
+  std::string name() const override { return "ingest"; }
+  std::string description() const override {
+    return "Add takes: files, or folders that are searched through";
+  }
+  void setup(CLI::App& app) override;
+  void check() override;
+  ExitCode run(Console& console) override;
+
+ private:
+  std::filesystem::path archive_;
+  IngestOptions options_;
+  std::vector<std::string> paths_;
+  std::filesystem::path metadata_;
+};
+
+}  // namespace reprise::cli

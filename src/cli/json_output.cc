@@ -1,0 +1,96 @@
+#include "cli/json_output.h"
+
+namespace reprise::cli {
+namespace {
+
+double ratio(std::uint64_t larger, std::uint64_t smaller) {
+  return smaller == 0 ? 0 : static_cast<double>(larger) / static_cast<double>(smaller);
+}
+
+}  // namespace
+
+std::string format_name(MotionFormat format) { return format == MotionFormat::bvh ? "bvh" : "amc"; }
+
+Json to_json(const PositionErrors& errors) {
+  return {{"mean", errors.mean}, {"rms", errors.rms}, {"p99", errors.p99}, {"max", errors.max}};
+}
+
+Json to_json(const TakeInfo& take) {
+  // The row number means nothing outside this archive; what names a take is its name.
+  return {{"id", take.name},
+          {"name", take.name},
+          {"subject", take.subject},
+          {"format", format_name(take.format)},
+          {"frames", take.frames},
+          {"frame_rate", take.frame_rate},
+          {"seconds", take.seconds()},
+          {"fidelity", tier_name(take.fidelity.tier)},
+          {"raw_bytes", take.raw_bytes},
+          {"payload_bytes", take.payload_bytes},
+          {"error_mm", to_json(take.error_mm)}};
+}
+
+Json to_json(const ClipInfo& clip) {
+  Json json = {{"id", clip.id},
+               {"take", clip.take},
+               {"kind", clip_kind_name(clip.kind)},
+               {"group", clip.group},
+               {"start", clip.start},
+               {"end", clip.end},
+               {"first_frame", clip.first_frame},
+               {"frames", clip.frames}};
+  if (!clip.primary.empty()) json["primary"] = clip.primary;
+  json["bytes"] = clip.bytes;
+  return json;
+}
+
+Json to_json(const SkeletonInfo& skeleton) {
+  return {{"id", skeleton.id},
+          {"format", format_name(skeleton.format)},
+          {"root", skeleton.root},
+          {"joints", skeleton.joints},
+          {"channels", skeleton.channels},
+          {"takes", skeleton.takes},
+          {"proportions", skeleton.proportions}};
+}
+
+Json to_json(const ArchiveStats& stats) {
+  Json bytes = Json::object();
+  for (const auto& [name, count] : stats.bytes) bytes[name] = count;
+  Json fidelity = Json::object();
+  for (const auto& [tier, takes] : stats.fidelity) fidelity[tier] = takes;
+  return {{"takes", stats.takes},
+          {"frames", stats.frames},
+          {"seconds", stats.seconds},
+          {"subjects", stats.subjects},
+          {"skeletons", stats.skeletons},
+          {"groups", stats.groups},
+          {"clips",
+           {{"primary", stats.primary_clips},
+            {"repeated", stats.repeated_clips},
+            {"unique", stats.unique_clips}}},
+          {"raw_bytes", stats.raw_bytes},
+          {"text_bytes", stats.text_bytes},
+          {"archive_bytes", stats.archive_bytes},
+          {"payload_bytes", stats.payload_bytes},
+          {"bytes", bytes},
+          {"ratio",
+           {{"raw", ratio(stats.raw_bytes, stats.archive_bytes)},
+            {"text", ratio(stats.text_bytes, stats.archive_bytes)}}},
+          {"error_mm", to_json(stats.error_mm)},
+          {"fidelity", fidelity}};
+}
+
+Json to_json(const Comparison& comparison) {
+  Json skate = nullptr;
+  if (comparison.foot_skate) {
+    skate = {{"original", comparison.foot_skate->original},
+             {"decoded", comparison.foot_skate->decoded}};
+  }
+  return {{"frames", comparison.frames},       {"missing_frames", comparison.missing_frames},
+          {"mean_mm", comparison.errors.mean}, {"rms_mm", comparison.errors.rms},
+          {"p99_mm", comparison.errors.p99},   {"max_mm", comparison.errors.max},
+          {"d_percent", comparison.d_percent}, {"foot_skate_mm_s", skate}};
+}
+
+}  // namespace reprise::cli

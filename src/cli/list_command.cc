@@ -1,0 +1,134 @@
+#include "cli/list_command.h"
+
+#include <fmt/format.h>
+
+#include "cli/json_output.h"
+#include "cli/text.h"
+#include "reprise/error.h"
+
+namespace reprise::cli {
+namespace {
+
+using enum Table::Align;
+
+std::string takes_table(const std::vector<TakeInfo>& takes, bool bold) {
+  Table table({{"TAKE", left},
+               {"SUBJECT", left},
+               {"FORMAT", left},
+               {"FRAMES", right},
+               {"RATE", right},
+               {"LENGTH", right},
+               {"FIDELITY", left},
+               {"PAYLOAD", right},
+               {"RATIO", right},
+               {"MEAN MM", right}});
+  for (const TakeInfo& take : takes) {
+    table.add({take.name, take.subject, format_name(take.format), std::to_string(take.frames),
+               format_number(take.frame_rate, 2), format_number(take.seconds(), 2),
+               tier_name(take.fidelity.tier), format_size(take.payload_bytes),
+               format_ratio(take.raw_bytes, take.payload_bytes),
+               format_number(take.error_mm.mean, 2)});
+  }
+  return table.text(bold);
+}
+
+std::string clips_table(const std::vector<ClipInfo>& clips, bool bold) {
+  Table table({{"CLIP", left},
+               {"TAKE", left},
+               {"KIND", left},
+               {"GROUP", right},
+               {"START", right},
+               {"END", right},
+               {"FRAMES", right},
+               {"PRIMARY", left},
+               {"SIZE", right}});
+  for (const ClipInfo& clip : clips) {
+    table.add({clip.id, clip.take, clip_kind_name(clip.kind), std::to_string(clip.group),
+               format_number(clip.start, 2), format_number(clip.end, 2),
+               std::to_string(clip.frames), clip.primary, format_size(clip.bytes)});
+  }
+  return table.text(bold);
+}
+
+std::string skeletons_table(const std::vector<SkeletonInfo>& skeletons, bool bold) {
+  Table table({{"SKELETON", right},
+               {"FORMAT", left},
+               {"ROOT", left},
+               {"JOINTS", right},
+               {"CHANNELS", right},
+               {"TAKES", right},
+               {"PROPORTIONS", right}});
+  for (const SkeletonInfo& skeleton : skeletons) {
+    table.add({std::to_string(skeleton.id), format_name(skeleton.format), skeleton.root,
+               std::to_string(skeleton.joints), std::to_string(skeleton.channels),
+               std::to_string(skeleton.takes), std::to_string(skeleton.proportions)});
+  }
+  return table.text(bold);
+}
+
+template <typename Record>
+Json document_of(const char* name, const std::vector<Record>& records) {
+  Json entries = Json::array();
+  for (const Record& record : records) entries.push_back(to_json(record));
+  return {{name, entries}};
+}
+
+ClipKind parse_kind(const std::string& text) {
+  for (const ClipKind kind : {ClipKind::primary, ClipKind::repeated, ClipKind::unique}) {
+    if (text == clip_kind_name(kind)) return kind;
+  }
+  throw Error(ErrorCode::usage,
+              "--kind takes primary, repeated or unique, not \"" + printable(text) + "\".");
+}
+
+}  // namespace
+
+void ListCommand::setup(CLI::App& app) {
+  add_archive(app, archive_);
+  app.add_flag("--clips", clips_, "List clips instead of takes");
+  app.add_flag("--skeletons", skeletons_, "List skeletons instead of takes");
+  app.add_option("--take", filter_.take, "Only of this take: its name or the end of it")
+      ->type_name("NAME");
+  app.add_option("--subject", filter_.subject, "Only of this subject")->type_name("NAME");
+  app.add_option_function<std::string>(
+         "--kind", [this](const std::string& text) { filter_.kind = parse_kind(text); },
+         "Only clips of this kind, or takes that have one: primary, repeated, unique")
+      ->type_name("KIND");
+  app.add_option("--text", filter_.text,
+                 "Only takes with these words in their name, subject, description or tags")
+      ->type_name("WORDS");
+  add_examples(app, {"reprise list lib.rpz", "reprise list lib.rpz --clips --take walk_01",
+                     "reprise list lib.rpz --text \"slow walk\" --json"});
+}
+
+void ListCommand::check() {
+  if (clips_ && skeletons_) {
+    throw Error(ErrorCode::usage, "--clips and --skeletons exclude each other.");
+  }
+  const bool filtered = !filter_.take.empty() || !filter_.subject.empty() ||
+                        !filter_.text.empty() || filter_.kind.has_value();
+  if (skeletons_ && filtered) {
+    throw Error(ErrorCode::usage, "The filters are for takes and clips, not for --skeletons.");
+  }
+}
+
+ExitCode ListCommand::run(Console& console) {
+  const Archive archive(archive_);
+  const bool bold = console.bold_results();
+  if (clips_) {
+    const auto clips = archive.clips(filter_);
+    console.result(clips_table(clips, bold));
+    console.document(document_of("clips", clips));
+  } else if (skeletons_) {
+    const auto skeletons = archive.skeletons();
+    console.result(skeletons_table(skeletons, bold));
+    console.document(document_of("skeletons", skeletons));
+  } else {
+    const auto takes = archive.takes(filter_);
+    console.result(takes_table(takes, bold));
+    console.document(document_of("takes", takes));
+  }
+  return exit_done;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,117 @@
+// The command `reprise`: finds the command asked for, runs it, and turns errors into exit codes.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <iostream>
+#include <string_view>
+
+#include "cli/command.h"
+#include "cli/error_report.h"
+#include "cli/suggestion.h"
+#include "cli/text.h"
+
+namespace {
+
+using namespace reprise;
+using namespace reprise::cli;
+
+constexpr std::string_view program_description =
+    "Reprise: a small archive for whole motion-capture libraries.";
+
+/// True if --json is among the arguments, for errors that come before they are parsed.
+bool asks_for_json(int argc, char** argv) {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    if (std::string_view(argv[i]) == "--json") return true;
+  }
+  return false;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+Error usage_error(const std::string& what, const std::string& wrong,
+                  const std::vector<std::string>& known, const std::string& help) {
+  const auto suggestion = suggest(wrong, known);
+  return Error(ErrorCode::usage, what + " \"" + printable(wrong) + "\".", {},
+               suggestion ? "Did you mean " + *suggestion + "?" : "See " + help + ".");
+}
+
+/// What is wrong with the arguments, in a sentence that helps.
+Error explain(const CLI::ParseError& error, const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const std::string help =
+      chosen.empty() ? "reprise --help" : "reprise " + command.get_name() + " --help";
+  const std::vector<std::string> rest = command.remaining();
+  for (const std::string& argument : rest) {
+    if (argument.size() > 1 && argument.front() == '-' && argument != "--") {
+      const std::string name = argument.substr(0, argument.find('='));
+      return usage_error("Unknown option", name, option_names(command), help);
+    }
+  }
+  if (chosen.empty()) {
+    if (rest.empty())
+      return Error(ErrorCode::usage, "A command is missing.", {}, "See " + help + ".");
+    return usage_error("Unknown command", rest.front(), command_names(app), help);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !rest.empty()) {
+    return usage_error("Unexpected argument", rest.front(), {}, help);
+  }
+  return Error(ErrorCode::usage, std::string(error.what()) + ".", {}, "See " + help + ".");
+}
+
+/// Parses, checks and runs. Throws Error.
+ExitCode dispatch(int argc, char** argv, ConsoleOptions& options) {
+  CLI::App app{std::string(program_description)};
+  app.name("reprise");
+  app.set_version_flag("--version", "reprise " REPRISE_VERSION);
+  app.require_subcommand(1);
+  add_console_options(app, options);
+  add_examples(app, {"reprise ingest lib.rpz takes/", "reprise list lib.rpz",
+                     "reprise extract lib.rpz walk_01 -o walk_01.bvh"});
+  const auto commands = all_commands();
+  for (const auto& command : commands) {
+    CLI::App* sub = app.add_subcommand(command->name(), command->description());
+    command->setup(*sub);
+    add_console_options(*sub, options);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help and --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    throw explain(error, app);
+  }
+  for (const auto& command : commands) {
+    if (!app.got_subcommand(command->name())) continue;
+    command->check();
+    Console console(options);
+    const ExitCode code = command->run(console);
+    console.flush();
+    return code;
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ConsoleOptions options;
+  options.json = asks_for_json(argc, argv);
+  try {
+    return dispatch(argc, argv, options);
+  } catch (const std::exception& exception) {
+    return report(as_error(exception), Console(options));
+  }
+}

@@ -1,0 +1,93 @@
+#include "cli/verify_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/interruption.h"
+#include "cli/json_output.h"
+#include "cli/text.h"
+#include "reprise/error.h"
+
+namespace reprise::cli {
+namespace {
+
+Json document_of(const VerifyReport& report) {
+  Json damaged = Json::array();
+  for (const Damage& damage : report.damaged) {
+    damaged.push_back({{"id", damage.id}, {"why", damage.why}});
+  }
+  return {{"ok", report.ok},
+          {"takes", report.takes},
+          {"clips", report.clips},
+          {"damaged", damaged},
+          {"error_mm", to_json(report.error_mm)}};
+}
+
+std::string report_text(const VerifyReport& report, bool measured) {
+  std::string text =
+      fmt::format("{}, {}: {}\n", format_count(report.takes, "take"),
+                  format_count(report.clips, "clip"), report.ok ? "all right" : "not all right");
+  for (const Damage& damage : report.damaged) {
+    text += printable(fmt::format("{}: {}", damage.id, damage.why)) + "\n";
+  }
+  if (report.takes > 0) {
+    text += fmt::format("error {}: {}\n", measured ? "against the sources" : "as stored",
+                        format_errors(report.error_mm));
+  }
+  return text;
+}
+
+/// An archive that cannot even be opened is reported in the same way as one with a damaged clip.
+VerifyReport report_of(const std::filesystem::path& archive,
+                       const std::optional<std::filesystem::path>& against, const ReadOptions& read,
+                       const ProgressSink& progress) {
+  try {
+    return Archive(archive).verify(against, read, progress);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::damaged) throw;
+    VerifyReport report;
+    report.ok = false;
+    report.damaged.push_back({"archive", error.reason()});
+    return report;
+  }
+}
+
+ErrorCode verdict(const VerifyReport& report) {
+  const bool only_fidelity =
+      !report.damaged.empty() &&
+      std::all_of(report.damaged.begin(), report.damaged.end(),
+                  [](const Damage& damage) { return damage.outside_fidelity; });
+  return only_fidelity ? ErrorCode::failed : ErrorCode::damaged;
+}
+
+}  // namespace
+
+void VerifyCommand::setup(CLI::App& app) {
+  add_archive(app, archive_);
+  add_path(app, "--against", against_,
+           "Measure each take against its source in this folder, and hold it to its fidelity",
+           "DIR");
+  add_read_options(app, read_);
+  add_examples(app, {"reprise verify lib.rpz", "reprise verify lib.rpz --against takes/"});
+}
+
+ExitCode VerifyCommand::run(Console& console) {
+  std::optional<std::filesystem::path> against;
+  if (!against_.empty()) against = against_;
+  const InterruptionGuard guard;
+  VerifyReport report;
+  {
+    ProgressBar bar("verify", console.progress_terminal());
+    report = report_of(archive_, against, read_, progress_sink(bar));
+  }
+  console.result(report_text(report, against.has_value()));
+  console.document(document_of(report));
+  if (report.ok) return exit_done;
+  const ErrorCode code = verdict(report);
+  console.complaint(code == ErrorCode::damaged ? "reprise: The archive is damaged."
+                                               : "reprise: Some takes are outside their fidelity.");
+  return static_cast<int>(code);
+}
+
+}  // namespace reprise::cli
