@@ -119,7 +119,8 @@ void IngestCommand::setup(CLI::App& app) {
 
 void IngestCommand::check() {
   for (const std::string& path : paths_) {
-    if (path.empty() || path == "-") {
+    if (path.empty()) throw Error(ErrorCode::usage, "PATH is empty.");
+    if (path == "-") {
       throw Error(
           ErrorCode::usage,
           "PATH takes files and folders: a take is named by its file, which stdin has not.");

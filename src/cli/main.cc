@@ -43,7 +43,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
 Error usage_error(const std::string& what, const std::string& wrong,
                   const std::vector<std::string>& known, const std::string& help) {
   const auto suggestion = suggest(wrong, known);
-  return Error(ErrorCode::usage, what + " \"" + printable(wrong) + "\".", {},
+  return Error(ErrorCode::usage, what + " \"" + printable(restored_argument(wrong)) + "\".", {},
                suggestion ? "Did you mean " + *suggestion + "?" : "See " + help + ".");
 }
 
@@ -85,9 +85,10 @@ ExitCode dispatch(int argc, char** argv, ConsoleOptions& options) {
     CLI::App* sub = app.add_subcommand(command->name(), command->description());
     command->setup(*sub);
     add_console_options(*sub, options);
+    restore_arguments(*sub);
   }
   try {
-    app.parse(argc, argv);
+    app.parse(protected_arguments(argc, argv));
   } catch (const CLI::Success& success) {  // --help and --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -134,8 +135,7 @@ CLI::Option* add_archive(CLI::App& app, std::filesystem::path& target) {
 
 CLI::Option* add_many(CLI::App& app, const std::string& name, std::vector<std::string>& target,
                       const std::string& description) {
-  // Without this CLI11 takes "[a,b]" for a list of two.
-  return app.add_option(name, target, description)->type_name("")->allow_extra_args(false);
+  return app.add_option(name, target, description)->type_name("");
 }
 
 void add_console_options(CLI::App& app, ConsoleOptions& options) {
@@ -166,6 +166,33 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
              "Millimetres in a length unit of BVH files (default 10)");
   add_number(app, "--fps", options.amc_frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
              "Frames a second of AMC files, which do not say (default 120)");
+}
+
+std::vector<std::string> protected_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  bool options_ended = false;
+  for (int i = 1; i < argc; ++i) {
+    std::string argument = argv[i];
+    if (argument == "--" && !options_ended) {
+      options_ended = true;
+      continue;
+    }
+    const bool like_list = argument.starts_with('[') && argument.ends_with(']');
+    const bool like_option = options_ended && argument.starts_with('-');
+    if (like_list || like_option) argument.insert(argument.begin(), '\0');
+    arguments.push_back(std::move(argument));
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+std::string restored_argument(std::string argument) {
+  if (argument.starts_with('\0')) argument.erase(argument.begin());
+  return argument;
+}
+
+void restore_arguments(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) option->transform(restored_argument);
 }
 
 void add_examples(CLI::App& app, const std::vector<std::string>& lines) {

@@ -71,7 +71,7 @@ CLI::Option* add_path(CLI::App& app, const std::string& name, std::filesystem::p
 /// The archive, first of the positional arguments. It must be seekable, so that "-" is refused.
 CLI::Option* add_archive(CLI::App& app, std::filesystem::path& target);
 
-/// Positional arguments, any number of them; each is taken as it is.
+/// Positional arguments, any number of them.
 CLI::Option* add_many(CLI::App& app, const std::string& name, std::vector<std::string>& target,
                       const std::string& description);
 
@@ -80,6 +80,13 @@ void add_console_options(CLI::App& app, ConsoleOptions& options);
 
 /// --asf, --unit-mm, --fps: what motion files do not say themselves.
 void add_read_options(CLI::App& app, ReadOptions& options);
+
+/// The arguments as the parser wants them, last first. It takes "[a,b]" for a list of two and
+/// forgets "--" once it has what it needs; so what is no option though it may look like one gets a
+/// NUL in front, which no argument has by itself, and loses it again in the options of `app`.
+std::vector<std::string> protected_arguments(int argc, char** argv);
+std::string restored_argument(std::string argument);
+void restore_arguments(CLI::App& app);
 
 /// "Example:" and the lines, indented, for the end of a command's help.
 void add_examples(CLI::App& app, const std::vector<std::string>& lines);

@@ -1,0 +1,130 @@
+// Decoded motion in files: whole, in part, in trees, and never where it should not be.
+#include <cmath>
+
+#include "cli/command_runner.h"
+#include "reprise/formats/motion_file.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+class ExtractTest : public CommandTest {
+ protected:
+  Take read(const fs::path& path) const { return read_motion_file(folder() / path); }
+};
+
+TEST_F(ExtractTest, StdoutAndFileAreTheSame) {
+  make_library();
+  const std::string take = take_names().front();
+  output({"extract", "lib.rpz", take, "-o", "x.bvh"});
+  EXPECT_EQ(output({"extract", "lib.rpz", take, "-o", "-"}), read_file(folder() / "x.bvh"));
+}
+
+TEST_F(ExtractTest, PartsAreSlicesOfTheWhole) {
+  make_library();
+  const std::string name = take_names().front();
+  output({"extract", "lib.rpz", name, "-o", "whole.bvh"});
+  const Take whole = read("whole.bvh");
+  const auto expect_slice = [&](const std::vector<std::string>& part, long begin, long end) {
+    std::vector<std::string> arguments{"extract", "lib.rpz", name, "-o", "part.bvh", "--overwrite"};
+    arguments.insert(arguments.end(), part.begin(), part.end());
+    output(arguments);
+    const Take slice = read("part.bvh");
+    ASSERT_EQ(slice.frames(), end - begin) << part.back();
+    EXPECT_EQ(slice.channels, whole.channels.middleRows(begin, end - begin)) << part.back();
+    EXPECT_EQ(slice.layout.frame_time_text, whole.layout.frame_time_text);
+  };
+  const long frames = whole.frames();
+  ASSERT_GT(frames, 40);
+  expect_slice({"--frames", "7:31"}, 7, 31);
+  expect_slice({"--frames", ":5"}, 0, 5);
+  expect_slice({"--frames", std::to_string(frames - 1) + ":"}, frames - 1, frames);
+  expect_slice({"--frames", "0:" + std::to_string(frames)}, 0, frames);
+  const double half = std::ceil(0.5 * whole.frame_rate - 1e-6);
+  expect_slice({"--time", "0.5:"}, static_cast<long>(half), frames);
+  expect_slice({"--time", ":0.5"}, 0, static_cast<long>(half));
+  EXPECT_EQ(reprise({"extract", "lib.rpz", name, "-o", "-", "--frames",
+                     "0:" + std::to_string(frames + 1)})
+                .exit_code,
+            1);
+}
+
+TEST_F(ExtractTest, ClipIsItsPartOfTheTake) {
+  make_library();
+  const auto clip = document({"list", "lib.rpz", "--clips"}).at("clips").at(0);
+  const std::string id = clip.at("id");
+  const long first = clip.at("first_frame");
+  const long count = clip.at("frames");
+  const std::string range = std::to_string(first) + ":" + std::to_string(first + count);
+  EXPECT_EQ(output({"extract", "lib.rpz", id, "-o", "-"}),
+            output({"extract", "lib.rpz", clip.at("take"), "--frames", range, "-o", "-"}));
+  output({"extract", "lib.rpz", id, "-d", "clips"});
+  const std::string file = clip.at("take").get<std::string>() + "_" + id + ".bvh";
+  EXPECT_TRUE(fs::exists(folder() / "clips" / file));
+}
+
+TEST_F(ExtractTest, TreeOfNamesIsKept) {
+  make_library();
+  const auto extracted = document({"extract", "lib.rpz", "--all", "-d", "out/tree/"});
+  EXPECT_EQ(extracted.at("extracted").size(), 4U);
+  const auto files = files_below(folder() / "out/tree");
+  ASSERT_EQ(files.size(), 4U);
+  for (const std::string& name : take_names()) EXPECT_TRUE(files.contains(name + ".bvh")) << name;
+  EXPECT_EQ(reprise({"extract", "lib.rpz", "--all", "-d", "out/tree"}).exit_code, 1);
+  EXPECT_EQ(reprise({"extract", "lib.rpz", "--all", "-d", "out/tree", "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(files_below(folder() / "out/tree"), files);
+}
+
+TEST_F(ExtractTest, AmcComesWithItsAsf) {
+  make_library("amc");
+  const std::string name = take_names().front();
+  const auto entry = document({"extract", "lib.rpz", name, "-d", "out"}).at("extracted").at(0);
+  const fs::path asf = entry.at("asf").get<std::string>();
+  const fs::path source = folder() / "takes" / fs::path(name).parent_path() / asf.filename();
+  EXPECT_EQ(read_file(folder() / asf), read_file(source));
+  EXPECT_GT(read(entry.at("file").get<std::string>()).frames(), 0);
+  // A second take of the same subject finds the skeleton there and leaves it.
+  output({"extract", "lib.rpz", "--all", "-d", "out", "--overwrite"});
+  const std::string text = output({"extract", "lib.rpz", name, "-o", "-"});
+  EXPECT_EQ(text.find(":bonedata"), std::string::npos);
+  EXPECT_EQ(text, read_file(folder() / entry.at("file").get<std::string>()));
+}
+
+TEST_F(ExtractTest, SkeletonOfAnotherIsNotReplaced) {
+  make_library("amc");
+  const std::string name = take_names().front();
+  const auto entry = document({"extract", "lib.rpz", name, "-d", "out"}).at("extracted").at(0);
+  const fs::path asf = folder() / entry.at("asf").get<std::string>();
+  write_file(asf, "another skeleton");
+  fs::remove(folder() / entry.at("file").get<std::string>());
+  EXPECT_EQ(reprise({"extract", "lib.rpz", name, "-d", "out"}).exit_code, 1);
+  EXPECT_EQ(read_file(asf), "another skeleton");
+  EXPECT_FALSE(fs::exists(folder() / entry.at("file").get<std::string>()));
+}
+
+TEST_F(ExtractTest, LinkInTheFolderIsNotFollowed) {
+  make_library();
+  const std::string name = take_names().front();
+  const auto slash = name.find('/');
+  if (slash == std::string::npos) GTEST_SKIP() << "the take has no folder in its name";
+  fs::create_directories(folder() / "out");
+  fs::create_directories(folder() / "elsewhere");
+  fs::create_directory_symlink(folder() / "elsewhere", folder() / "out" / name.substr(0, slash));
+  EXPECT_EQ(reprise({"extract", "lib.rpz", name, "-d", "out"}).exit_code, 1);
+  EXPECT_TRUE(fs::is_empty(folder() / "elsewhere"));
+}
+
+TEST_F(ExtractTest, ComparisonReadsStdin) {
+  make_library();
+  const std::string name = take_names().front();
+  output({"extract", "lib.rpz", name, "-o", "x.bvh"});
+  const std::string source = "takes/" + name + ".bvh";
+  const Outcome piped =
+      reprise({"compare", source, "-", "--json"}, {.environment = {}, .input = "x.bvh"});
+  EXPECT_EQ(piped.exit_code, 0) << piped.err;
+  EXPECT_EQ(piped.out, output({"compare", source, "x.bvh", "--json"}));
+}
+
+}  // namespace
+}  // namespace reprise::cli

@@ -1,0 +1,171 @@
+// What ingest promises about names, repetition, order and sources.
+#include <algorithm>
+
+#include "cli/command_runner.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+class IngestTest : public CommandTest {
+ protected:
+  /// Replaces every take of the folder by those of another seed.
+  void change_takes() const {
+    output({"synth", "takes", "--takes", "4", "--seconds", "3", "--subjects", "2", "--seed", "9",
+            "--overwrite"});
+  }
+};
+
+TEST_F(IngestTest, AgainSkipsAndChangesNothing) {
+  make_library();
+  const std::string digest = content_digest();
+  const auto again = document({"ingest", "lib.rpz", "takes"});
+  EXPECT_EQ(again.at("skipped").size(), 4U);
+  EXPECT_EQ(again.at("added").size(), 0U);
+  EXPECT_EQ(content_digest(), digest);
+}
+
+TEST_F(IngestTest, JobsDoNotChangeTheContent) {
+  make_library();
+  output({"ingest", "one.rpz", "takes", "--jobs", "1"});
+  output({"ingest", "two.rpz", "takes", "--jobs", "2"});
+  EXPECT_EQ(content_digest("one.rpz"), content_digest("two.rpz"));
+  EXPECT_EQ(content_digest("one.rpz"), content_digest("lib.rpz"));
+}
+
+TEST_F(IngestTest, OrderOfArgumentsDoesNotChangeTheContent) {
+  make_library();
+  std::vector<std::string> files;
+  for (const auto& [name, content] : files_below(folder() / "takes")) {
+    if (name.ends_with(".bvh")) files.push_back("takes/" + name);
+  }
+  std::vector<std::string> forth{"ingest", "forth.rpz"};
+  std::vector<std::string> back{"ingest", "back.rpz"};
+  forth.insert(forth.end(), files.begin(), files.end());
+  back.insert(back.end(), files.rbegin(), files.rend());
+  output(forth);
+  output(back);
+  EXPECT_EQ(content_digest("forth.rpz"), content_digest("back.rpz"));
+}
+
+TEST_F(IngestTest, OtherContentUnderTheSameNameNeedsReplace) {
+  make_library();
+  const std::string digest = content_digest();
+  change_takes();
+  const Outcome refused = reprise({"ingest", "lib.rpz", "takes"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("--replace"), std::string::npos) << refused.err;
+  EXPECT_EQ(content_digest(), digest);
+  const auto replaced = document({"ingest", "lib.rpz", "takes", "--replace"});
+  EXPECT_EQ(replaced.at("added").size(), 4U);
+  EXPECT_EQ(take_names().size(), 4U);
+  EXPECT_NE(content_digest(), digest);
+  output({"verify", "lib.rpz", "--against", "takes"});
+}
+
+TEST_F(IngestTest, PrefixGoesInFrontOfNames) {
+  make_library();
+  const auto before = take_names();
+  change_takes();
+  output({"ingest", "lib.rpz", "takes", "--prefix", "day2/"});
+  const auto after = take_names();
+  EXPECT_EQ(after.size(), 8U);
+  for (const std::string& name : before) {
+    EXPECT_EQ(std::count(after.begin(), after.end(), name), 1) << name;
+    EXPECT_EQ(std::count(after.begin(), after.end(), "day2/" + name), 1) << name;
+  }
+}
+
+TEST_F(IngestTest, MetadataIsShownAndSearched) {
+  make_library();
+  const auto names = take_names();
+  write_file(folder() / "takes.csv", "take,subject,description,tags\n" + names[0] +
+                                         ",Ada,\"slow walk, then a turn\",gait\n" + names[1] +
+                                         ",Ben,quick wave,gesture\n");
+  output({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
+  const auto take = document({"info", "told.rpz", names[0]}).at("take");
+  EXPECT_EQ(take.at("subject"), "Ada");
+  EXPECT_EQ(take.at("description"), "slow walk, then a turn");
+  EXPECT_EQ(take.at("tags"), "gait");
+  const auto found = document({"list", "told.rpz", "--text", "turn slow"}).at("takes");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].at("name"), names[0]);
+  EXPECT_EQ(document({"list", "told.rpz", "--text", "gesture"}).at("takes").at(0).at("name"),
+            names[1]);
+  EXPECT_EQ(document({"list", "told.rpz", "--text", "swimming"}).at("takes").size(), 0U);
+  EXPECT_EQ(document({"list", "told.rpz", "--subject", "Ben"}).at("takes").size(), 1U);
+  for (const char* odd : {"\"", "a OR", "*", "NEAR(", "'; --", "walk*\""}) {
+    EXPECT_EQ(reprise({"list", "told.rpz", "--text", odd}).exit_code, 0) << odd;
+  }
+}
+
+TEST_F(IngestTest, FiltersNarrowLists) {
+  make_library();
+  const std::string name = take_names().front();
+  EXPECT_EQ(document({"list", "lib.rpz", "--take", name}).at("takes").size(), 1U);
+  for (const auto& clip : document({"list", "lib.rpz", "--clips", "--take", name}).at("clips")) {
+    EXPECT_EQ(clip.at("take"), name);
+  }
+  const auto all = document({"list", "lib.rpz", "--clips"}).at("clips");
+  std::size_t together = 0;
+  for (const char* kind : {"primary", "repeated", "unique"}) {
+    const auto some = document({"list", "lib.rpz", "--clips", "--kind", kind}).at("clips");
+    for (const auto& clip : some) EXPECT_EQ(clip.at("kind"), kind);
+    together += some.size();
+  }
+  EXPECT_EQ(together, all.size());
+}
+
+TEST_F(IngestTest, SourcesStayAsTheyAre) {
+  output({"synth", "takes", "--takes", "3", "--seconds", "2"});
+  const auto before = files_below(folder() / "takes");
+  output({"ingest", "lib.rpz", "takes"});
+  output({"verify", "lib.rpz", "--against", "takes"});
+  EXPECT_EQ(files_below(folder() / "takes"), before);
+}
+
+TEST_F(IngestTest, DryRunWritesNothing) {
+  output({"synth", "takes", "--takes", "3", "--seconds", "2"});
+  const auto before = files_below(folder());
+  const auto dry = document({"ingest", "lib.rpz", "takes", "--dry-run"});
+  EXPECT_EQ(dry.at("added").size(), 3U);
+  EXPECT_EQ(files_below(folder()), before);
+  output({"ingest", "lib.rpz", "takes"});
+  const std::string archive = read_file(folder() / "lib.rpz");
+  EXPECT_EQ(document({"ingest", "lib.rpz", "takes", "--dry-run"}).at("skipped").size(), 3U);
+  EXPECT_EQ(read_file(folder() / "lib.rpz"), archive);
+}
+
+TEST_F(IngestTest, MeanIsHeld) {
+  output({"synth", "takes", "--takes", "3", "--seconds", "3"});
+  output({"ingest", "fine.rpz", "takes", "--mean-mm", "3"});
+  output({"ingest", "coarse.rpz", "takes", "--mean-mm", "30"});
+  for (const auto& take : document({"list", "fine.rpz"}).at("takes")) {
+    EXPECT_LE(take.at("error_mm").at("mean").get<double>(), 3.0);
+  }
+  EXPECT_LT(document({"stats", "coarse.rpz"}).at("payload_bytes"),
+            document({"stats", "fine.rpz"}).at("payload_bytes"));
+}
+
+TEST_F(IngestTest, OddNamesAreJustNames) {
+  output({"synth", "takes", "--takes", "1", "--seconds", "2"});
+  std::string text;
+  for (const auto& [name, content] : files_below(folder() / "takes")) {
+    if (name.ends_with(".bvh")) text = content;
+  }
+  for (const char* name : {"-dash.bvh", "[set]/a,b.bvh", "list/two words.bvh"}) {
+    write_file(folder() / "odd" / name, text);
+  }
+  write_file(folder() / "-top.bvh", text);
+  write_file(folder() / "[x]/c.bvh", text);
+  EXPECT_EQ(document({"ingest", "odd.rpz", "odd"}).at("added").size(), 3U);
+  EXPECT_EQ(reprise({"ingest", "top.rpz", "--", "-top.bvh", "[x]", "odd/list"}).exit_code, 0);
+  EXPECT_EQ(take_names("top.rpz").size(), 3U);
+  output({"extract", "odd.rpz", "--all", "-d", "out"});
+  EXPECT_TRUE(fs::exists(folder() / "out/[set]/a,b.bvh"));
+  EXPECT_EQ(reprise({"info", "odd.rpz", "--", "-dash"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace reprise::cli

@@ -1,0 +1,72 @@
+// An ingest that is stopped or killed leaves an archive that is valid, and is carried on by the
+// same command.
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "cli/command_runner.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+class InterruptionTest : public CommandTest {
+ protected:
+  InterruptionTest() {
+    output({"synth", "takes", "--takes", "10", "--seconds", "4", "--subjects", "2"});
+    const auto start = std::chrono::steady_clock::now();
+    output({"ingest", "whole.rpz", "takes", "--jobs", "2"});
+    duration_ = std::chrono::steady_clock::now() - start;
+    names_ = take_names("whole.rpz");
+  }
+
+  /// Sends the signal after a share of the time that an undisturbed ingest takes. Which point of
+  /// the work that hits does not matter: everything must hold at every one.
+  Outcome ingest_until(int number, double share) const {
+    RunningCommand running(folder(),
+                           {REPRISE_COMMAND, "ingest", "lib.rpz", "takes", "--jobs", "2"});
+    std::this_thread::sleep_for(duration_ * share);
+    running.signal(number);
+    return running.wait();
+  }
+
+  void expect_carried_on() const {
+    output({"ingest", "lib.rpz", "takes", "--jobs", "2"});
+    EXPECT_EQ(take_names(), names_);
+    output({"verify", "lib.rpz", "--against", "takes"});
+  }
+
+  std::chrono::duration<double> duration_{};
+  std::vector<std::string> names_;
+};
+
+TEST_F(InterruptionTest, KilledAnywhereAndCarriedOn) {
+  for (const double share : {0.02, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95}) {
+    for (const char* name : {"lib.rpz", "lib.rpz-journal"}) fs::remove(folder() / name);
+    ingest_until(SIGKILL, share);
+    if (fs::exists(folder() / "lib.rpz")) {
+      const int code = reprise({"verify", "lib.rpz"}).exit_code;
+      // Killed before the first commit, the file may be there and empty.
+      if (fs::file_size(folder() / "lib.rpz") > 0) EXPECT_EQ(code, 0) << share;
+    }
+    expect_carried_on();
+  }
+}
+
+TEST_F(InterruptionTest, StoppedPolitely) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    fs::remove(folder() / "lib.rpz");
+    const Outcome outcome = ingest_until(number, 0.4);
+    // A machine under load may have finished before, or not have begun.
+    EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0 ||
+                outcome.exit_code == 128 + number)
+        << outcome.exit_code << outcome.err;
+    EXPECT_FALSE(fs::exists(folder() / "lib.rpz-journal"));
+    expect_carried_on();
+  }
+}
+
+}  // namespace
+}  // namespace reprise::cli

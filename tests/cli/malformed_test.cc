@@ -1,0 +1,63 @@
+// Bad files among good ones: each named with its line, and the good ones stored.
+#include <algorithm>
+
+#include "cli/command_runner.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+class MalformedTest : public CommandTest {};
+
+bool is_motion(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension == ".bvh" || extension == ".amc";
+}
+
+TEST_F(MalformedTest, EachBadFileIsNamedAndTheGoodOnesAreStored) {
+  const fs::path source = REPRISE_MALFORMED_DIR;
+  if (!fs::exists(source)) GTEST_SKIP() << "no folder of malformed files: " << source;
+  output({"synth", "mixed/good", "--takes", "3", "--seconds", "2"});
+  fs::copy(source, folder() / "mixed/bad", fs::copy_options::recursive);
+  std::size_t bad = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder() / "mixed/bad")) {
+    if (entry.is_regular_file() && is_motion(entry.path())) ++bad;
+  }
+  ASSERT_GE(bad, 1U);
+
+  const auto report = document({"ingest", "lib.rpz", "mixed"}, 3);
+  EXPECT_EQ(report.at("added").size(), 3U) << report.at("added");
+  EXPECT_EQ(report.at("rejected").size(), bad);
+  for (const auto& rejected : report.at("rejected")) {
+    EXPECT_GT(rejected.at("line").get<long>(), 0) << rejected;
+    EXPECT_EQ(rejected.at("why").get<std::string>().find('\n'), std::string::npos) << rejected;
+  }
+  output({"verify", "lib.rpz"});
+}
+
+TEST_F(MalformedTest, OneLineOnStderrForEach) {
+  const fs::path source = REPRISE_MALFORMED_DIR;
+  if (!fs::exists(source)) GTEST_SKIP() << "no folder of malformed files: " << source;
+  output({"synth", "mixed/good", "--takes", "2", "--seconds", "2"});
+  fs::copy(source, folder() / "mixed/bad", fs::copy_options::recursive);
+  const Outcome outcome = reprise({"ingest", "lib.rpz", "mixed", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.out, "");
+  for (const auto& entry : fs::recursive_directory_iterator(folder() / "mixed/bad")) {
+    if (!entry.is_regular_file() || !is_motion(entry.path())) continue;
+    const std::string start = entry.path().lexically_relative(folder()).string();
+    const auto lines = lines_of(outcome.err);
+    const auto count = std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
+      return line.starts_with(start + ":");
+    });
+    // An AMC may be rejected for its ASF, which is then the file that is named.
+    const bool by_asf = count == 0 && entry.path().extension() == ".amc";
+    EXPECT_TRUE(count == 1 || by_asf) << start << "\n" << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace reprise::cli

@@ -1,0 +1,122 @@
+// The main job from end to end, as a user does it.
+#include "cli/command_runner.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+class WholeLifeTest : public CommandTest, public testing::WithParamInterface<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Formats, WholeLifeTest, testing::Values("bvh", "amc"));
+
+TEST_P(WholeLifeTest, IntoTheArchiveAndBack) {
+  const std::string format = GetParam();
+  make_library(format);
+  const auto names = take_names();
+  ASSERT_EQ(names.size(), 4U);
+  output({"extract", "lib.rpz", "--all", "-d", "out"});
+  for (const auto& take : document({"list", "lib.rpz"}).at("takes")) {
+    const std::string file = take.at("name").get<std::string>() + "." + format;
+    const auto apart = document({"compare", "takes/" + file, "out/" + file});
+    EXPECT_EQ(apart.at("missing_frames"), 0);
+    EXPECT_EQ(apart.at("frames"), take.at("frames"));
+    EXPECT_LE(apart.at("mean_mm").get<double>(), 20.0);
+    // What the archive says of itself is what an outside measurement finds; files have six
+    // decimals.
+    EXPECT_NEAR(apart.at("mean_mm").get<double>(), take.at("error_mm").at("mean").get<double>(),
+                0.01);
+  }
+  EXPECT_EQ(document({"verify", "lib.rpz", "--against", "takes"}).at("ok"), true);
+}
+
+TEST_P(WholeLifeTest, RemovedTakesAreGoneAndTheirSpaceComesBack) {
+  make_library(GetParam());
+  const auto names = take_names();
+  const std::string kept = output({"extract", "lib.rpz", names[3], "-o", "-"});
+  const auto removed = document({"remove", "lib.rpz", names[0], names[1], names[0]});
+  EXPECT_EQ(removed.at("removed"), nlohmann::json({names[0], names[1]}));
+  EXPECT_EQ(take_names(), (std::vector<std::string>{names[2], names[3]}));
+  const auto size = fs::file_size(folder() / "lib.rpz");
+  const auto compacted = document({"compact", "lib.rpz"});
+  EXPECT_EQ(compacted.at("bytes_before"), size);
+  EXPECT_EQ(compacted.at("bytes_after"), fs::file_size(folder() / "lib.rpz"));
+  EXPECT_LT(fs::file_size(folder() / "lib.rpz"), size);
+  output({"verify", "lib.rpz"});
+  EXPECT_EQ(output({"extract", "lib.rpz", names[3], "-o", "-"}), kept);
+}
+
+TEST_F(CommandTest, TakeOutsideItsFidelityIsOne) {
+  make_library();
+  const std::string name = take_names().front();
+  // Other motion under the same name stands for a source that the archive does not hold.
+  output({"synth", "others", "--takes", "4", "--seconds", "3", "--subjects", "2", "--seed", "77"});
+  const Outcome outcome = reprise({"verify", "lib.rpz", "--against", "others", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report.at("ok"), false);
+  ASSERT_GE(report.at("damaged").size(), 1U);
+  EXPECT_EQ(report["damaged"][0].at("id"), name);
+}
+
+TEST_F(CommandTest, ResultsAndMessagesDoNotMix) {
+  make_library();
+  const std::string name = take_names().front();
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"list", "lib.rpz"},
+                                             {"info", "lib.rpz"},
+                                             {"stats", "lib.rpz"},
+                                             {"verify", "lib.rpz"},
+                                             {"info", "lib.rpz", name},
+                                             {"list", "lib.rpz", "--clips"}}) {
+    const Outcome outcome = reprise(arguments);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "") << arguments.front();
+    EXPECT_NE(outcome.out, "") << arguments.front();
+    EXPECT_EQ(outcome.out.find('\033'), std::string::npos) << "colour without a terminal";
+  }
+  const Outcome verbose = reprise({"ingest", "lib.rpz", "takes", "--json", "-v"});
+  EXPECT_TRUE(nlohmann::json::accept(verbose.out)) << verbose.out;
+  EXPECT_NE(verbose.err.find(name), std::string::npos) << verbose.err;
+  const Outcome quiet = reprise({"ingest", "lib.rpz", "takes", "-q"});
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(CommandTest, LocaleDoesNotChangeNumbers) {
+  make_library();
+  const std::string name = take_names().front();
+  output({"extract", "lib.rpz", name, "-o", "x.bvh"});
+  const std::vector<std::vector<std::string>> commands{
+      {"stats", "lib.rpz"},
+      {"stats", "lib.rpz", "--json"},
+      {"list", "lib.rpz"},
+      {"info", "lib.rpz", name},
+      {"extract", "lib.rpz", name, "-o", "-"},
+      {"compare", "takes/" + name + ".bvh", "x.bvh"}};
+  // The first that is installed has an effect; names of others are ignored by the C library.
+  for (const char* locale : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "C.UTF-8"}) {
+    const Surroundings surroundings{.environment = {{"LC_ALL", locale}, {"LANG", locale}},
+                                    .input = {}};
+    for (const auto& arguments : commands) {
+      EXPECT_EQ(reprise(arguments, surroundings).out, output(arguments))
+          << locale << ": " << arguments.front();
+    }
+  }
+  const Surroundings german{.environment = {{"LC_ALL", "de_DE.UTF-8"}}, .input = {}};
+  EXPECT_EQ(reprise({"ingest", "german.rpz", "takes", "--mean-mm", "2.5"}, german).exit_code, 0);
+  output({"ingest", "plain.rpz", "takes", "--mean-mm", "2.5"});
+  EXPECT_EQ(content_digest("german.rpz"), content_digest("plain.rpz"));
+}
+
+TEST_F(CommandTest, ReadingDoesNotWrite) {
+  make_library();
+  const auto before = files_below(folder());
+  const std::string name = take_names().front();
+  output({"stats", "lib.rpz"});
+  output({"verify", "lib.rpz"});
+  output({"extract", "lib.rpz", name, "-o", "-"});
+  EXPECT_EQ(files_below(folder()), before);
+}
+
+}  // namespace
+}  // namespace reprise::cli
