@@ -1,0 +1,244 @@
+// Drives an ingest: finds the takes, makes the spaces that they need, codes and stores them.
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "archive/error_sketch.h"
+#include "archive/input_files.h"
+#include "archive/metadata.h"
+#include "archive/parallel.h"
+#include "archive/space_builder.h"
+#include "archive/take_identity.h"
+#include "reprise/archive.h"
+#include "reprise/error.h"
+#include "store/archive_store.h"
+
+namespace reprise {
+namespace {
+
+/// Takes are stored together until this much coded motion or this many of them has come together; a
+/// stopped ingest loses no more than that.
+constexpr std::size_t batch_bytes = 1u << 20;
+constexpr std::size_t batch_takes = 64;
+
+/// What the first look at a file says.
+struct Surveyed {
+  std::optional<RejectedInput> rejected;
+  bool skipped = false;
+  bool replaces = false;
+  TakeOutline outline;
+};
+
+struct CodedTake {
+  std::optional<RejectedInput> rejected;
+  TakeRecord record;
+  std::vector<ClipRecord> clips;
+};
+
+RejectedInput rejection(const InputFile& file, const Error& error) {
+  std::string why = error.reason();
+  if (!error.advice().empty()) why += "; " + error.advice();
+  const bool elsewhere = !error.place().file.empty() && error.place().file != file.path.string();
+  return {elsewhere ? error.place().file : file.path.string(), error.place().line, why};
+}
+
+class Ingest {
+ public:
+  Ingest(const std::filesystem::path& archive, const IngestOptions& options,
+         const ProgressSink& progress)
+      : archive_(archive), options_(options), progress_(progress) {}
+
+  IngestReport run() {
+    if (options_.metadata) metadata_ = MetadataTable::read(*options_.metadata);
+    InputFiles inputs = find_input_files(options_.paths, options_.prefix);
+    report_.rejected = std::move(inputs.rejected);
+    files_ = std::move(inputs.files);
+    total_ = 3 * files_.size();
+    if (options_.dry_run) {
+      if (std::filesystem::exists(archive_)) store_ = ArchiveStore::open_for_reading(archive_);
+    } else {
+      store_ = ArchiveStore::open_for_writing(archive_);
+    }
+    survey();
+    if (!options_.dry_run) {
+      store_structures();
+      code_and_store();
+    }
+    std::sort(report_.rejected.begin(), report_.rejected.end(),
+              [](const RejectedInput& a, const RejectedInput& b) { return a.path < b.path; });
+    return std::move(report_);
+  }
+
+ private:
+  void tick(const std::string& current) {
+    ++done_;
+    if (progress_ && !progress_({std::min(done_, total_), total_, current})) {
+      throw Error(ErrorCode::interrupted,
+                  "stopped; what is stored stays, and running it again goes on");
+    }
+  }
+
+  /// Reads every file once: which are new, what their skeletons are, what moves in them.
+  void survey() {
+    produce_in_order(
+        files_.size(), options_.jobs, [&](std::size_t i) { return survey_file(files_[i]); },
+        [&](std::size_t i, Surveyed surveyed) {
+          tick(files_[i].name);
+          if (!surveyed.rejected) decide(files_[i], surveyed);
+          if (surveyed.rejected) {
+            report_.rejected.push_back(*surveyed.rejected);
+          } else if (surveyed.skipped) {
+            report_.skipped.push_back(files_[i].name);
+          } else if (options_.dry_run) {
+            report_.added.push_back(files_[i].name);
+          } else {
+            fresh_.push_back({files_[i], std::move(surveyed.outline), surveyed.replaces});
+          }
+        });
+  }
+
+  Surveyed survey_file(const InputFile& file) const {
+    Surveyed surveyed;
+    try {
+      surveyed.outline = outline_take(file, options_.read);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
+      surveyed.rejected = rejection(file, error);
+    }
+    return surveyed;
+  }
+
+  void decide(const InputFile& file, Surveyed& surveyed) {
+    const std::optional<TakeRecord> stored = store_ ? store_->find_take(file.name) : std::nullopt;
+    if (!stored) return;
+    const bool same_source = stored->info.source_digest == surveyed.outline.source_digest;
+    const bool same_fidelity = stored->info.fidelity.tier == options_.fidelity.tier &&
+                               stored->info.fidelity.limit_mm == options_.fidelity.limit_mm;
+    if (same_source && (same_fidelity || !options_.replace)) {
+      surveyed.skipped = true;
+    } else if (options_.replace) {
+      surveyed.replaces = true;
+    } else {
+      surveyed.rejected = RejectedInput{file.path.string(), 0,
+                                        "a take '" + file.name +
+                                            "' with other content is stored already; --replace "
+                                            "replaces it, --prefix P gives the new "
+                                            "one another name"};
+    }
+  }
+
+  /// Skeletons, proportions and spaces come first, so that a stopped ingest goes on with the same
+  /// axes.
+  void store_structures() {
+    SpaceBuilder builder(*store_, options_);
+    spaces_ = builder.build(fresh_, [&](const std::string& current) { tick(current); });
+  }
+
+  void code_and_store() {
+    std::size_t bytes = 0, takes = 0;
+    const auto commit = [&] {
+      if (takes > 0) store_->commit();
+      bytes = takes = 0;
+      for (std::string& name : pending_) report_.added.push_back(std::move(name));
+      pending_.clear();
+    };
+    produce_in_order(
+        fresh_.size(), options_.jobs, [&](std::size_t i) { return code_take(fresh_[i]); },
+        [&](std::size_t i, CodedTake coded) {
+          if (coded.rejected) {
+            report_.rejected.push_back(*coded.rejected);
+          } else {
+            if (takes == 0) store_->begin();
+            if (fresh_[i].replaces) {
+              if (const auto old = store_->find_take(fresh_[i].file.name))
+                store_->remove_take(old->info.id);
+            }
+            store_->add_take(coded.record, coded.clips);
+            pending_.push_back(fresh_[i].file.name);
+            bytes += coded.record.motion.size();
+            if (++takes >= batch_takes || bytes >= batch_bytes) commit();
+          }
+          tick(fresh_[i].file.name);
+        });
+    commit();
+  }
+
+  CodedTake code_take(const FreshTake& fresh) const {
+    CodedTake coded;
+    try {
+      const Take take = read_again(fresh, options_.read);
+      const SpaceAssignment& assignment = spaces_.at(fresh.file.name);
+      FittedTake fitted = assignment.fitted
+                              ? *assignment.fitted
+                              : fit_take(assignment.space->space, take, options_.fidelity.limit_mm);
+      if (!fitted.kept) {
+        throw Error(ErrorCode::rejected_input,
+                    "the motion cannot be coded within the promised error",
+                    {fresh.file.path.string()});
+      }
+      coded.record = make_record(fresh, take, assignment, fitted);
+      coded.clips.push_back(whole_take_clip(take, coded.record.motion.size()));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
+      coded.rejected = rejection(fresh.file, error);
+    }
+    return coded;
+  }
+
+  TakeRecord make_record(const FreshTake& fresh, const Take& take,
+                         const SpaceAssignment& assignment, FittedTake& fitted) const {
+    TakeRecord record;
+    record.motion = encode_motion(assignment.space->model, fitted.shape, fitted.motion);
+    record.spent = {{"curves", record.motion.size()}};
+    record.error_quantiles = sketch_distances(fitted.distances);
+    record.proportions = assignment.proportions;
+    record.space = assignment.space_id;
+    record.content = fresh.outline.content;
+    record.layout = layout_bytes(take);
+    TakeInfo& info = record.info;
+    info.name = fresh.file.name;
+    info.subject = subject_of(fresh.file, take);
+    if (const TakeMetadata* row = metadata_.find(info.name)) {
+      if (!row->subject.empty()) info.subject = row->subject;
+      info.description = row->description;
+      info.tags = row->tags;
+    }
+    info.format = take.skeleton->format;
+    info.frames = take.frames();
+    info.frame_rate = take.frame_rate;
+    info.frame_rate_assumed = take.frame_rate_assumed;
+    info.fidelity = options_.fidelity;
+    info.raw_bytes = 4 * static_cast<std::uint64_t>(take.channels.size());
+    info.text_bytes = fresh.outline.text_bytes;
+    info.error_mm = fitted.errors;
+    info.source_digest = fresh.outline.source_digest;
+    return record;
+  }
+
+  std::filesystem::path archive_;
+  const IngestOptions& options_;
+  const ProgressSink& progress_;
+  MetadataTable metadata_;
+  std::vector<InputFile> files_;
+  std::vector<FreshTake> fresh_;
+  std::map<std::string, SpaceAssignment> spaces_;
+  std::optional<ArchiveStore> store_;
+  std::vector<std::string> pending_;
+  IngestReport report_;
+  std::size_t done_ = 0, total_ = 0;
+};
+
+}  // namespace
+
+IngestReport ingest(const std::filesystem::path& archive, const IngestOptions& options,
+                    const ProgressSink& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  IngestReport report = Ingest(archive, options, progress).run();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace reprise

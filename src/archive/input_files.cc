@@ -1,0 +1,86 @@
+#include "archive/input_files.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "reprise/error.h"
+
+namespace reprise {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_name(const fs::path& file) {
+  std::error_code ignored;
+  fs::path full = fs::weakly_canonical(file, ignored);
+  if (ignored) full = file;
+  return full.parent_path().filename().generic_string();
+}
+
+/// The files of one argument, with their paths under it.
+std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path) {
+  std::vector<std::pair<fs::path, fs::path>> found;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error || !fs::exists(status)) {
+    throw Error(ErrorCode::failed, "there is no such file or folder", {path.string()});
+  }
+  if (!fs::is_directory(status)) {
+    found.emplace_back(path, path.filename());
+    return found;
+  }
+  fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied,
+                                         error);
+  if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
+  for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored) && is_motion_file(entry->path())) {
+      found.emplace_back(entry->path(), entry->path().lexically_relative(path));
+    }
+  }
+  return found;
+}
+
+std::string name_without_extension(const fs::path& path) {
+  fs::path name = path;
+  return name.replace_extension().generic_string();
+}
+
+}  // namespace
+
+InputFiles find_input_files(const std::vector<fs::path>& paths, const std::string& prefix) {
+  InputFiles result;
+  std::map<std::string, std::vector<std::pair<fs::path, fs::path>>> by_name;
+  std::set<fs::path> seen;
+  for (const fs::path& argument : paths) {
+    for (auto& [path, relative] : files_under(argument)) {
+      std::error_code ignored;
+      const fs::path full = fs::weakly_canonical(path, ignored);
+      if (!seen.insert(full.empty() ? path : full).second) continue;
+      by_name[name_without_extension(relative)].emplace_back(path, relative);
+    }
+  }
+  for (auto& [name, files] : by_name) {
+    std::sort(files.begin(), files.end());
+    std::set<std::string> used;
+    for (const auto& [path, relative] : files) {
+      // x.bvh beside x.amc: the extension tells them apart.
+      std::string own = files.size() == 1 ? name : relative.generic_string();
+      if (!prefix.empty()) own = prefix + "/" + own;
+      if (!used.insert(own).second) {
+        result.rejected.push_back({path.string(), 0,
+                                   "another file of this ingest has the name '" + own +
+                                       "' too; ingest the folders one by one with --prefix"});
+        continue;
+      }
+      result.files.push_back({path, own, folder_name(path)});
+    }
+  }
+  std::sort(result.files.begin(), result.files.end(),
+            [](const InputFile& a, const InputFile& b) { return a.name < b.name; });
+  return result;
+}
+
+}  // namespace reprise

@@ -1,0 +1,28 @@
+// Which files an ingest is about, and what each take is called.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reprise/archive.h"
+
+namespace reprise {
+
+struct InputFile {
+  std::filesystem::path path;
+  std::string name;    ///< of the take: path under the ingested folder without extension, with '/'
+  std::string folder;  ///< name of the folder that the file is in
+};
+
+struct InputFiles {
+  std::vector<InputFile> files;  ///< by name
+  std::vector<RejectedInput> rejected;
+};
+
+/// Files are taken as they are, folders searched through for motion files; links to folders are not
+/// followed. Throws Error (failed) for a path that is not there.
+InputFiles find_input_files(const std::vector<std::filesystem::path>& paths,
+                            const std::string& prefix);
+
+}  // namespace reprise

@@ -1,0 +1,87 @@
+#include "archive/metadata.h"
+
+#include <csv.h>
+
+#include <vector>
+
+#include "reprise/error.h"
+#include "reprise/formats/motion_file.h"
+
+namespace reprise {
+namespace {
+
+struct CsvRows {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> row;
+};
+
+extern "C" void end_of_field(void* field, std::size_t size, void* rows) {
+  static_cast<CsvRows*>(rows)->row.emplace_back(static_cast<const char*>(field), size);
+}
+
+extern "C" void end_of_row(int, void* rows) {
+  auto* all = static_cast<CsvRows*>(rows);
+  all->rows.push_back(std::move(all->row));
+  all->row.clear();
+}
+
+CsvRows parse_csv(const std::string& text, const std::string& file) {
+  csv_parser parser;
+  if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) throw std::bad_alloc();
+  CsvRows rows;
+  const std::size_t parsed =
+      csv_parse(&parser, text.data(), text.size(), end_of_field, end_of_row, &rows);
+  const bool whole =
+      parsed == text.size() && csv_fini(&parser, end_of_field, end_of_row, &rows) == 0;
+  const std::string why = csv_strerror(csv_error(&parser));
+  csv_free(&parser);
+  if (!whole) {
+    throw Error(ErrorCode::failed, "the table cannot be read: " + why,
+                {file, rows.rows.size() + 1});
+  }
+  return rows;
+}
+
+int column_of(const std::vector<std::string>& header, const std::string& name) {
+  for (std::size_t c = 0; c < header.size(); ++c) {
+    if (header[c] == name) return static_cast<int>(c);
+  }
+  return -1;
+}
+
+std::string cell(const std::vector<std::string>& row, int column) {
+  return column >= 0 && column < static_cast<int>(row.size()) ? row[column] : std::string();
+}
+
+}  // namespace
+
+MetadataTable MetadataTable::read(const std::filesystem::path& path) {
+  std::string text = read_whole_file(path);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  const CsvRows csv = parse_csv(text, path.string());
+  if (csv.rows.empty() || column_of(csv.rows[0], "take") < 0) {
+    throw Error(ErrorCode::failed, "the table has no column 'take'", {path.string(), 1},
+                "its first line names the columns: take, subject, description, tags");
+  }
+  const auto& header = csv.rows[0];
+  MetadataTable table;
+  for (std::size_t r = 1; r < csv.rows.size(); ++r) {
+    const auto& row = csv.rows[r];
+    table.rows_[cell(row, column_of(header, "take"))] = {
+        cell(row, column_of(header, "subject")), cell(row, column_of(header, "description")),
+        cell(row, column_of(header, "tags"))};
+  }
+  return table;
+}
+
+const TakeMetadata* MetadataTable::find(const std::string& take) const {
+  for (std::size_t at = 0; at != std::string::npos;) {
+    const auto row = rows_.find(take.substr(at));
+    if (row != rows_.end()) return &row->second;
+    const std::size_t slash = take.find('/', at);
+    at = slash == std::string::npos ? slash : slash + 1;
+  }
+  return nullptr;
+}
+
+}  // namespace reprise

@@ -1,0 +1,140 @@
+#include "archive/space_training.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reprise {
+
+using Eigen::Index;
+
+void LayoutEvidence::add(const LayoutEvidence& other) {
+  if (active.empty()) {
+    *this = other;
+    return;
+  }
+  for (std::size_t c = 0; c < active.size(); ++c) {
+    active[c] = active[c] || other.active[c];
+    channel_sums[c] += other.channel_sums[c];
+  }
+  for (std::size_t j = 0; j < travel.size(); ++j) {
+    travel[j] += other.travel[j];
+    for (int a = 0; a < 3; ++a) upward[j][a] += other.upward[j][a];
+  }
+  frames += other.frames;
+}
+
+LayoutEvidence layout_evidence(const Take& take) {
+  const Skeleton& skeleton = *take.skeleton;
+  LayoutEvidence evidence;
+  evidence.frames = static_cast<double>(take.frames());
+  const Eigen::RowVectorXd low = take.channels.colwise().minCoeff();
+  const Eigen::RowVectorXd high = take.channels.colwise().maxCoeff();
+  const Eigen::RowVectorXd sums = take.channels.colwise().sum();
+  for (int c = 0; c < skeleton.channel_count; ++c) {
+    evidence.active.push_back(high[c] - low[c] > TrainingConstants::least_change);
+    evidence.channel_sums.push_back(sums[c]);
+  }
+  std::vector<JointFrame> frames(skeleton.joints.size());
+  evidence.upward.assign(skeleton.joints.size(), {});
+  const Index stride =
+      std::max<Index>(1, std::lround(take.frame_rate / TrainingConstants::frames_a_second));
+  for (Index f = 0; f < take.frames(); f += stride) {
+    forward_kinematics(skeleton, {take.channels.row(f).data(), std::size_t(skeleton.channel_count)},
+                       frames);
+    for (std::size_t j = 0; j < frames.size(); ++j) {
+      for (int a = 0; a < 3; ++a) evidence.upward[j][a] += frames[j].rotation(1, a);
+    }
+  }
+  for (const Joint& joint : skeleton.joints) {
+    double travel = 0;
+    for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+      const Index channel = joint.first_channel + static_cast<Index>(c);
+      if (is_position(joint.channels[c])) {
+        travel += (high[channel] - low[channel]) * skeleton.millimetres_per_unit;
+      }
+    }
+    evidence.travel.push_back(travel);
+  }
+  return evidence;
+}
+
+LayoutChoices choose_layout(const Skeleton& skeleton, const LayoutEvidence& evidence) {
+  LayoutChoices choices;
+  choices.active = evidence.active;
+  // The motion of the root may sit below the first joint: take the joint that travels most.
+  double furthest = 0;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    if (evidence.travel[j] > furthest * 1.0001) {
+      furthest = evidence.travel[j];
+      choices.root_joint = static_cast<int>(j);
+    }
+  }
+  double highest = -1;
+  for (int a = 0; a < 6; ++a) {
+    const double up = evidence.upward[choices.root_joint][a % 3] * (a < 3 ? 1 : -1);
+    if (a == 0 || up > highest) {
+      highest = up;
+      choices.up_axis = a;
+    }
+  }
+  return choices;
+}
+
+MarkerMatrix sampled_markers(const MarkerLayout& layout, const Take& take) {
+  const Index stride =
+      std::max<Index>(1, std::lround(take.frame_rate / TrainingConstants::frames_a_second));
+  Take sampled = take;
+  sampled.channels.resize((take.frames() + stride - 1) / stride, take.channels.cols());
+  for (Index f = 0; f < sampled.channels.rows(); ++f) {
+    sampled.channels.row(f) = take.channels.row(f * stride);
+  }
+  return mark_take(layout, sampled).markers;
+}
+
+namespace {
+
+double allowed_residual(const MarkerLayout& layout, double mean_mm) {
+  const double residual = TrainingConstants::residual_share * mean_mm;
+  return layout.point_count * residual * residual;
+}
+
+}  // namespace
+
+CoefficientSpace train_space(MarkerLayout layout, const MarkerMoments& moments,
+                             const LayoutEvidence& evidence, double mean_mm) {
+  CoefficientSpace space;
+  space.layout = std::move(layout);
+  for (const double sum : evidence.channel_sums) {
+    space.start.push_back(sum / std::max(evidence.frames, 1.0));
+  }
+  space.mean = moments.mean();
+  PrincipalAxes axes =
+      principal_axes(moments.covariance(space.mean), Eigen::MatrixXd(space.layout.dimensions(), 0),
+                     allowed_residual(space.layout, mean_mm));
+  space.axes = std::move(axes.axes);
+  space.variance = std::move(axes.variance);
+  return space;
+}
+
+CoefficientSpace extend_space(const CoefficientSpace& base, const MarkerMoments& moments,
+                              double mean_mm) {
+  PrincipalAxes more = principal_axes(moments.covariance(base.mean), base.axes,
+                                      allowed_residual(base.layout, mean_mm));
+  CoefficientSpace space = base;
+  space.axes.conservativeResize(base.axes.rows(), base.axes.cols() + more.axes.cols());
+  space.axes.rightCols(more.axes.cols()) = more.axes;
+  space.variance.conservativeResize(base.variance.size() + more.variance.size());
+  space.variance.tail(more.variance.size()) = more.variance;
+  return space;
+}
+
+SpacePrecision space_precision(const CoefficientSpace& space, double mean_mm) {
+  const double points = space.layout.point_count;
+  const double axes = static_cast<double>(std::max<Index>(space.axes.cols(), 1));
+  const double dimensions = std::max(space.layout.dimensions(), 1);
+  // An axis of deviation s with entries rounded to e / s adds e^2 / 12 to each of the dimensions.
+  return {TrainingConstants::mean_share * mean_mm * std::sqrt(12.0 * points / dimensions),
+          TrainingConstants::axis_share * mean_mm * std::sqrt(12.0 * points / (dimensions * axes))};
+}
+
+}  // namespace reprise

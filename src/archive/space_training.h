@@ -1,0 +1,51 @@
+// A coefficient space from takes of one skeleton.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "archive/take_fit.h"
+#include "ingest/principal_components.h"
+
+namespace reprise {
+
+struct TrainingConstants {
+  /// What the axes may leave of the allowed mean error (part of it, root mean square).
+  static constexpr double residual_share = 0.35;
+  /// What rounding the axes and the mean may add, as parts of it.
+  static constexpr double axis_share = 0.05;
+  static constexpr double mean_share = 0.1;
+  /// Frames are taken this many times a second.
+  static constexpr double frames_a_second = 15.0;
+  /// A channel changes if it moves by more than this (degrees, or units of the file).
+  static constexpr double least_change = 1e-3;
+};
+
+/// What a take says about the layout. Sums, so that takes can be added up in a fixed order.
+struct LayoutEvidence {
+  std::vector<bool> active;
+  std::vector<double> travel;  ///< of each joint: range of its position channels, mm
+  std::vector<std::array<double, 3>>
+      upward;  ///< of each joint: sums of the height of its three axes
+  std::vector<double> channel_sums;
+  double frames = 0;
+
+  void add(const LayoutEvidence& other);
+};
+LayoutEvidence layout_evidence(const Take& take);
+LayoutChoices choose_layout(const Skeleton& skeleton, const LayoutEvidence& evidence);
+
+/// Every n-th frame of a take as markers.
+MarkerMatrix sampled_markers(const MarkerLayout& layout, const Take& take);
+
+/// Axes for a mean error of `mean_mm`, not yet rounded. `start` is the mean of each channel.
+CoefficientSpace train_space(MarkerLayout layout, const MarkerMoments& moments,
+                             const LayoutEvidence& evidence, double mean_mm);
+/// `base` with further axes for what does not fit it.
+CoefficientSpace extend_space(const CoefficientSpace& base, const MarkerMoments& moments,
+                              double mean_mm);
+
+SpacePrecision space_precision(const CoefficientSpace& space, double mean_mm);
+
+}  // namespace reprise

@@ -1,0 +1,110 @@
+#include "archive/take_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reprise {
+namespace {
+
+/// Codes one take at one step after another.
+class StepSearch {
+ public:
+  StepSearch(const CoefficientSpace& space, const Take& take, double mean_mm)
+      : space_(space),
+        take_(take),
+        allowed_(mean_mm * (1.0 - FitConstants::margin)),
+        positions_(joint_positions(*take.skeleton, take.channels)) {
+    MarkedTake marked = mark_take(space.layout, take);
+    TrajectoryMatrix trajectories = to_trajectories(space, take, marked);
+    knots_ = take_knots(space, {take.frames(), take.frame_rate}, marked.root.tumbles,
+                        std::move(trajectories));
+    find_switches();
+  }
+
+  /// The coarsest step that keeps the mean, by the error's near proportion to the step.
+  FittedTake run() {
+    int good = -1, bad = QuantiserConstants::most_step + 1;
+    FittedTake best;
+    int step = first_guess();
+    while (good + 1 < bad) {
+      FittedTake tried = measure(step);
+      const double mean = tried.errors.mean;
+      if (mean <= allowed_) {
+        good = step;
+        best = std::move(tried);
+      } else {
+        bad = step;
+      }
+      const double ratio = allowed_ / std::max(mean, 1e-6);
+      const int move = static_cast<int>(
+          std::lround(QuantiserConstants::steps_per_octave * std::log2(ratio) / error_exponent));
+      step = good == step ? step + std::max(move, 1) : step + std::min(move, -1);
+      step = std::clamp(step, good + 1, std::max(bad - 1, good + 1));
+      step = std::min(step, QuantiserConstants::most_step);
+    }
+    best.kept = good >= 0;
+    return best;
+  }
+
+ private:
+  /// The mean error grows with about this power of the step.
+  static constexpr double error_exponent = 0.8;
+
+  int first_guess() const {
+    // A coefficient takes its share of all points' error; see docs/findings for the factor.
+    const double step = 2.2 * allowed_;
+    return std::clamp(
+        static_cast<int>(std::lround(QuantiserConstants::steps_per_octave * std::log2(step))), 0,
+        QuantiserConstants::most_step);
+  }
+
+  ChannelMatrix decode(int step, const QuantisedKnots& quantised) const {
+    return to_channels(space_, *take_.skeleton, knots_.tumbles,
+                       dequantise(quantised, knots_.shape, step), switches_);
+  }
+
+  void find_switches() {
+    const int step = first_guess();
+    switches_ = find_branch_switches(space_, take_, decode(step, quantise(knots_, step)));
+  }
+
+  FittedTake measure(int step) const {
+    FittedTake tried;
+    tried.shape = knots_.shape;
+    tried.motion = {knots_.tumbles, step, switches_, quantise(knots_, step)};
+    const PositionMatrix decoded =
+        joint_positions(*take_.skeleton, decode(step, tried.motion.knots));
+    tried.distances = joint_distances(positions_, decoded);
+    double sum = 0;
+    for (const float distance : tried.distances) sum += distance;
+    tried.errors.mean =
+        tried.distances.empty() ? 0 : sum / static_cast<double>(tried.distances.size());
+    return tried;
+  }
+
+  const CoefficientSpace& space_;
+  const Take& take_;
+  double allowed_;
+  PositionMatrix positions_;
+  TakeKnots knots_;
+  std::vector<BranchSwitch> switches_;
+};
+
+}  // namespace
+
+double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers) {
+  const MarkerMatrix centred = markers.rowwise() - space.mean.transpose();
+  const double all = centred.squaredNorm();
+  const double inside = (centred * space.axes).squaredNorm();
+  return std::sqrt(
+      std::max(all - inside, 0.0) /
+      (static_cast<double>(std::max<Eigen::Index>(markers.rows(), 1)) * space.layout.point_count));
+}
+
+FittedTake fit_take(const CoefficientSpace& space, const Take& take, double mean_mm) {
+  FittedTake fitted = StepSearch(space, take, mean_mm).run();
+  if (fitted.kept) fitted.errors = summarise_distances(fitted.distances);
+  return fitted;
+}
+
+}  // namespace reprise

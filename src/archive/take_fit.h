@@ -1,0 +1,31 @@
+// The coarsest coding of a take that keeps its fidelity, measured on what the decoder makes of it.
+#pragma once
+
+#include "quant/take_codec.h"
+#include "reprise/archive.h"
+#include "reprise/model/kinematics.h"
+
+namespace reprise {
+
+struct FitConstants {
+  /// A step is kept only if the mean error is this much below what was promised (part of it), for
+  /// what rounding to the decimals of a file and another build's arithmetic may add.
+  static constexpr double margin = 1e-4;
+  /// A take fits a space if its axes leave no more than this part of the allowed mean error.
+  static constexpr double most_residual = 0.65;
+};
+
+struct FittedTake {
+  CodedMotion motion;
+  KnotShape shape;
+  PositionErrors errors;
+  std::vector<float> distances;  ///< frames x joints, mm, in no order
+  bool kept = false;             ///< false: not even the finest step keeps the fidelity
+};
+
+/// Root mean square distance (mm a point) that the axes of a space leave of a take's markers.
+double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers);
+
+FittedTake fit_take(const CoefficientSpace& space, const Take& take, double mean_mm);
+
+}  // namespace reprise

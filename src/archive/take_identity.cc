@@ -1,0 +1,100 @@
+#include "archive/take_identity.h"
+
+#include <cmath>
+
+#include "reprise/error.h"
+#include "store/digest.h"
+
+namespace reprise {
+namespace {
+
+/// Reads and digests; the digest is of what was read, so that a file that changes in between is
+/// noticed.
+Take read_with_digest(const InputFile& file, const ReadOptions& options, std::string& digest,
+                      std::uint64_t& text_bytes) {
+  const std::string text = read_whole_file(file.path);
+  text_bytes = text.size();
+  Hasher hasher;
+  hasher.add(text);
+  Take take;
+  const std::string name = file.path.string();
+  std::string extension = file.path.extension().string();
+  for (char& c : extension) c = static_cast<char>(c | 0x20);
+  if (extension == ".amc") {
+    const std::filesystem::path asf = options.asf ? *options.asf : find_asf(file.path);
+    const std::string asf_text = read_whole_file(asf);
+    hasher.add(asf_text);
+    auto skeleton = std::make_shared<Skeleton>(read_asf(asf_text, asf.string()));
+    skeleton->asf_name = asf.stem().string();
+    take = read_amc(text, name, std::move(skeleton), options.amc_frame_rate);
+  } else {
+    take = read_bvh(text, name, options.bvh_millimetres_per_unit);
+  }
+  digest = hexadecimal(hasher.finish());
+  take.name = file.name;
+  for (Eigen::Index i = 0; i < take.channels.size(); ++i) {
+    if (!std::isfinite(take.channels.data()[i])) {
+      throw Error(ErrorCode::rejected_input, "a value is not a finite number", {name});
+    }
+  }
+  return take;
+}
+
+}  // namespace
+
+TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
+  TakeOutline outline;
+  const Take take = read_with_digest(file, options, outline.source_digest, outline.text_bytes);
+  if (take.frames() == 0) {
+    throw Error(ErrorCode::rejected_input, "the file has no frames", {file.path.string()});
+  }
+  outline.content = content_digest(*take.skeleton, take.channels, 0, take.frames());
+  outline.skeleton = take.skeleton;
+  outline.evidence = layout_evidence(take);
+  outline.frames = take.frames();
+  outline.frame_rate = take.frame_rate;
+  outline.layout = take.layout;
+  return outline;
+}
+
+Take read_again(const FreshTake& fresh, const ReadOptions& options) {
+  std::string digest;
+  std::uint64_t text_bytes = 0;
+  Take take = read_with_digest(fresh.file, options, digest, text_bytes);
+  if (digest != fresh.outline.source_digest) {
+    throw Error(ErrorCode::rejected_input, "the file changed while it was being read",
+                {fresh.file.path.string()}, "run the ingest again");
+  }
+  return take;
+}
+
+Digest content_digest(const Skeleton& skeleton, const ChannelMatrix& channels, long first,
+                      long frames) {
+  Hasher hasher;
+  hasher.add(structure_bytes(skeleton));
+  for (long f = first; f < first + frames; ++f) {
+    for (Eigen::Index c = 0; c < channels.cols(); ++c) hasher.add_real(channels(f, c) + 0.0);
+  }
+  return hasher.finish();
+}
+
+std::uint64_t clip_address(const Digest& content) {
+  std::uint64_t address = 0;
+  for (int i = 0; i < 8; ++i) address = address << 8 | content[i];
+  return address;
+}
+
+std::string subject_of(const InputFile& file, const Take& take) {
+  return take.skeleton->asf_name.empty() ? file.folder : take.skeleton->asf_name;
+}
+
+ClipRecord whole_take_clip(const Digest& content, long frames, std::uint64_t bytes) {
+  ClipRecord clip;
+  clip.id = clip_address(content);
+  clip.kind = ClipKind::unique;
+  clip.frames = frames;
+  clip.bytes = bytes;
+  return clip;
+}
+
+}  // namespace reprise

@@ -1,0 +1,52 @@
+// What a take is, apart from its name: digests of its source and content, and its clips' IDs.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "archive/input_files.h"
+#include "archive/space_training.h"
+#include "reprise/formats/motion_file.h"
+#include "store/archive_store.h"
+
+namespace reprise {
+
+/// What the first look at a file keeps of it.
+struct TakeOutline {
+  std::string source_digest;  ///< hexadecimal, of the file's bytes and, of an AMC, the ASF's
+  std::uint64_t text_bytes = 0;
+  Digest content{};
+  std::shared_ptr<const Skeleton> skeleton;
+  LayoutEvidence evidence;
+  long frames = 0;
+  double frame_rate = 0;
+  TakeLayout layout;
+};
+
+/// A file that is to be stored.
+struct FreshTake {
+  InputFile file;
+  TakeOutline outline;
+  bool replaces = false;
+};
+
+/// Throws Error (rejected_input).
+TakeOutline outline_take(const InputFile& file, const ReadOptions& options);
+
+/// Reads the file for coding. Throws Error (rejected_input) where it is no longer what was
+/// outlined.
+Take read_again(const FreshTake& fresh, const ReadOptions& options);
+
+/// Structure of the skeleton and channel values of frames [first, first + frames).
+Digest content_digest(const Skeleton& skeleton, const ChannelMatrix& channels, long first,
+                      long frames);
+
+/// The content address of a clip: the first eight bytes of its content digest, high byte first.
+std::uint64_t clip_address(const Digest& content);
+
+/// The metadata's subject comes first; else the ASF's name, else the folder's.
+std::string subject_of(const InputFile& file, const Take& take);
+
+ClipRecord whole_take_clip(const Digest& content, long frames, std::uint64_t bytes);
+
+}  // namespace reprise

@@ -1,0 +1,235 @@
+#include "ingest/joint_angles.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <cmath>
+#include <numbers>
+
+#include "ingest/virtual_markers.h"
+#include "reprise/model/kinematics.h"
+
+namespace reprise {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double pi = std::numbers::pi;
+constexpr double degrees_per_radian = 180.0 / pi;
+/// Cosine of the middle angle under which two outer angles cannot be told apart.
+constexpr double gimbal_lock_cosine = 1e-5;
+/// Sweeps over the angles of a joint with two degrees of freedom, or a chain with repeated axes.
+constexpr int most_sweeps = 4;
+constexpr double sweep_tolerance = 1e-7;
+
+double next_to(double angle, double previous) {
+  return angle + 2 * pi * std::round((previous - angle) / (2 * pi));
+}
+
+double distance(const EulerAngles& a, const EulerAngles& b) {
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+}
+
+/// The angle about `axis` that turns best into `matrix`: the largest trace of matrix^T R.
+double best_angle(const Matrix3d& matrix, int axis) {
+  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+  return std::atan2(matrix(k, j) - matrix(j, k), matrix(j, j) + matrix(k, k));
+}
+
+/// The proper rotation nearest to `matrix` (Kabsch).
+Matrix3d nearest_rotation(const Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d sign = Matrix3d::Identity();
+  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  return svd.matrixU() * sign * svd.matrixV().transpose();
+}
+
+/// Orthonormal axes with `first` along the first and `second` in the plane of the first two.
+/// Vectors too short or too alike to say so (a coarse decode may bring any) get some axes all the
+/// same.
+Matrix3d basis(const Vector3d& first, const Vector3d& second) {
+  constexpr double too_short = 1e-9;
+  Matrix3d result;
+  result.col(0) = first.norm() > too_short ? first.normalized() : Vector3d::UnitX();
+  Vector3d rest = second - second.dot(result.col(0)) * result.col(0);
+  if (rest.norm() <= too_short) rest = result.col(0).unitOrthogonal();
+  result.col(1) = rest.normalized();
+  result.col(2) = result.col(0).cross(result.col(1));
+  return result;
+}
+
+bool has_three_axes(const std::vector<RotationChannel>& rotations) {
+  if (rotations.size() != 3) return false;
+  for (const RotationChannel& rotation : rotations) {
+    if (!rotation.active) return false;
+  }
+  return rotations[0].axis != rotations[1].axis && rotations[1].axis != rotations[2].axis &&
+         rotations[0].axis != rotations[2].axis;
+}
+
+/// Coordinate ascent on the trace of target^T E over the active angles, from where they are.
+void ascend(const std::vector<RotationChannel>& rotations, const Matrix3d& target,
+            std::vector<double>& angles) {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double moved = 0;
+    int active = 0;
+    for (std::size_t k = 0; k < rotations.size(); ++k) {
+      if (!rotations[k].active) continue;
+      ++active;
+      Matrix3d left = Matrix3d::Identity(), right = Matrix3d::Identity();
+      for (std::size_t i = 0; i < k; ++i) {
+        left *= axis_rotation(rotations[i].axis, angles[rotations[i].channel]);
+      }
+      for (std::size_t i = k + 1; i < rotations.size(); ++i) {
+        right *= axis_rotation(rotations[i].axis, angles[rotations[i].channel]);
+      }
+      double& angle = angles[rotations[k].channel];
+      const Matrix3d seen = left.transpose() * target * right.transpose();
+      const double better = next_to(best_angle(seen, rotations[k].axis), angle);
+      moved += std::abs(better - angle);
+      angle = better;
+    }
+    if (active < 2 || moved < sweep_tolerance) return;
+  }
+}
+
+}  // namespace
+
+std::array<EulerAngles, 2> euler_angles(const Matrix3d& rotation, const std::array<int, 3>& axes,
+                                        const EulerAngles& previous) {
+  const auto [i, j, k] = axes;
+  const double sign = (i + 1) % 3 == j ? 1 : -1;
+  const double sine = std::clamp(sign * rotation(i, k), -1.0, 1.0);
+  const double cosine = std::hypot(rotation(i, i), rotation(i, j));
+  EulerAngles one;
+  one[1] = std::atan2(sine, cosine);
+  if (cosine < gimbal_lock_cosine) {
+    one[2] = previous[2];
+    const Matrix3d rest = rotation * axis_rotation(k, -one[2]) * axis_rotation(j, -one[1]);
+    one[0] = best_angle(rest, i);
+  } else {
+    one[0] = std::atan2(-sign * rotation(j, k), rotation(k, k));
+    one[2] = std::atan2(-sign * rotation(i, j), rotation(i, i));
+  }
+  EulerAngles two = {one[0] + pi, pi - one[1], one[2] + pi};
+  for (int a = 0; a < 3; ++a) {
+    one[a] = next_to(one[a], previous[a]);
+    two[a] = next_to(two[a], previous[a]);
+  }
+  if (distance(two, previous) < distance(one, previous)) std::swap(one, two);
+  return {one, two};
+}
+
+EulerAngles nearest_euler_angles(const Matrix3d& rotation, const std::array<int, 3>& axes,
+                                 const EulerAngles& previous) {
+  return euler_angles(rotation, axes, previous)[0];
+}
+
+JointAngleSolver::JointAngleSolver(const MarkerLayout& layout, std::span<const double> start)
+    : layout_(layout),
+      angles_(start.begin(), start.end()),
+      rotations_(layout.reference.joints.size(), Matrix3d::Identity()),
+      positions_(layout.reference.joints.size(), Vector3d::Zero()),
+      driven_of_joint_(layout.reference.joints.size(), -1) {
+  for (double& angle : angles_) angle /= degrees_per_radian;
+  for (std::size_t d = 0; d < layout.driven.size(); ++d) {
+    driven_of_joint_[layout.driven[d].joint] = static_cast<int>(d);
+  }
+}
+
+void JointAngleSolver::look_near(std::size_t index, std::span<const double> degrees) {
+  const DrivenJoint& driven = layout_.driven[index];
+  for (std::size_t k = 0; k < driven.rotations.size(); ++k) {
+    angles_[driven.rotations[k].channel] = degrees[k] / degrees_per_radian;
+  }
+}
+
+Matrix3d JointAngleSolver::seen_rotation(const DrivenJoint& driven, std::span<const double> markers,
+                                         const Matrix3d& to_local, const Vector3d& centre) const {
+  const auto seen = [&](const OrientationTarget& target) -> Vector3d {
+    const Vector3d place = Eigen::Map<const Vector3d>(markers.data() + 3 * target.marker);
+    return to_local * (layout_.markers[target.marker].off_bone ? place : Vector3d(place - centre));
+  };
+  const Matrix3d& axis = layout_.reference.joints[driven.joint].axis;
+  const auto& targets = driven.targets;
+  if (targets.size() == 2 && layout_.markers[targets[1].marker].off_bone) {
+    return basis(seen(targets[0]), seen(targets[1])) *
+           basis(axis.transpose() * targets[0].local, axis.transpose() * targets[1].local)
+               .transpose();
+  }
+  Matrix3d correlation = Matrix3d::Zero();
+  for (const OrientationTarget& target : targets) {
+    correlation += seen(target) * (axis.transpose() * target.local).transpose();
+  }
+  return targets.size() > 1 ? nearest_rotation(correlation) : correlation;
+}
+
+Matrix3d JointAngleSolver::solve_joint(const DrivenJoint& driven, std::span<const double> markers,
+                                       const Matrix3d& parent, const Vector3d& centre,
+                                       std::span<double> channels) {
+  const Matrix3d& axis = layout_.reference.joints[driven.joint].axis;
+  const Matrix3d to_local = (parent * axis).transpose();
+  Matrix3d local = seen_rotation(driven, markers, to_local, centre);
+  if (has_three_axes(driven.rotations)) {
+    const auto& r = driven.rotations;
+    const EulerAngles previous = {angles_[r[0].channel], angles_[r[1].channel],
+                                  angles_[r[2].channel]};
+    const EulerAngles now =
+        nearest_euler_angles(local, {r[0].axis, r[1].axis, r[2].axis}, previous);
+    for (int k = 0; k < 3; ++k) angles_[r[k].channel] = now[k];
+  } else {
+    ascend(driven.rotations, local, angles_);
+    local.setIdentity();
+    for (const RotationChannel& rotation : driven.rotations) {
+      local *= axis_rotation(rotation.axis, angles_[rotation.channel]);
+    }
+  }
+  for (const RotationChannel& rotation : driven.rotations) {
+    channels[rotation.channel] = angles_[rotation.channel] * degrees_per_radian;
+  }
+  return parent * axis * local * axis.transpose();
+}
+
+Matrix3d JointAngleSolver::solve(std::span<const double> markers, const Matrix3d* known_root,
+                                 std::span<double> channels) {
+  const auto& joints = layout_.reference.joints;
+  const bool asf = layout_.reference.format == MotionFormat::asf_amc;
+  const auto root = static_cast<std::size_t>(layout_.choices.root_joint);
+  for (const int channel : layout_.direct_channels) {
+    angles_[channel] = channels[channel] / degrees_per_radian;
+  }
+  for (std::size_t j = root; j < joints.size(); ++j) {
+    if (!layout_.under_root[j]) continue;
+    const int d = driven_of_joint_[j];
+    if (j == root) {
+      rotations_[j].setIdentity();
+      if (known_root != nullptr) {
+        rotations_[j] = *known_root;
+      } else if (d >= 0) {
+        // Seen without the root's own axes: its channels are found once the heading is known.
+        const Matrix3d& axis = joints[j].axis;
+        rotations_[j] =
+            axis * seen_rotation(layout_.driven[d], markers, axis.transpose(), Vector3d::Zero()) *
+            axis.transpose();
+      }
+      continue;
+    }
+    const Matrix3d& parent = rotations_[joints[j].parent];
+    const Vector3d& parent_place = positions_[joints[j].parent];
+    const Vector3d centre =
+        asf ? parent_place : Vector3d(parent_place + parent * layout_.offsets[j]);
+    if (d >= 0) {
+      rotations_[j] = solve_joint(layout_.driven[d], markers, parent, centre, channels);
+    } else {
+      Matrix3d local = Matrix3d::Identity();
+      for (const RotationChannel& rotation : rotation_channels(joints[j])) {
+        local *= axis_rotation(rotation.axis, angles_[rotation.channel]);
+      }
+      rotations_[j] = parent * joints[j].axis * local * joints[j].axis.transpose();
+    }
+    positions_[j] = asf ? Vector3d(parent_place + rotations_[j] * layout_.offsets[j]) : centre;
+  }
+  return rotations_[root];
+}
+
+}  // namespace reprise

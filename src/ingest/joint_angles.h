@@ -1,0 +1,59 @@
+// Virtual markers back to joint angles, with bone lengths exactly those of the skeleton.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "ingest/marker_layout.h"
+
+namespace reprise {
+
+/// Euler angles (radians) of a rotation about three different axes, outermost first.
+using EulerAngles = std::array<double, 3>;
+
+/// The two ways to write `rotation` as a product about `axes`, moved by whole turns next to
+/// `previous`, the nearer first. Near gimbal lock the innermost angle stays at `previous`.
+std::array<EulerAngles, 2> euler_angles(const Eigen::Matrix3d& rotation,
+                                        const std::array<int, 3>& axes,
+                                        const EulerAngles& previous);
+
+/// The same rotation written so that it is continuous with `previous`.
+EulerAngles nearest_euler_angles(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes,
+                                 const EulerAngles& previous);
+
+/// Solves frame after frame; each frame continues the angles of the one before, so that what comes
+/// out is continuous and may run past 180 degrees.
+class JointAngleSolver {
+ public:
+  /// `start` is a whole frame of channels (degrees): where the angles of the first frame are looked
+  /// for.
+  JointAngleSolver(const MarkerLayout& layout, std::span<const double> start);
+
+  /// Makes the next frame look for the angles of driven joint `index` near these (degrees,
+  /// outermost first).
+  void look_near(std::size_t index, std::span<const double> degrees);
+
+  /// `markers` has layout.dimensions() numbers; the direct channels are read from `channels`.
+  /// Writes the channels of the driven joints into `channels` (degrees) and returns the aligned
+  /// orientation of the root joint. With `known_root` the root is not solved for but as given.
+  Eigen::Matrix3d solve(std::span<const double> markers, const Eigen::Matrix3d* known_root,
+                        std::span<double> channels);
+
+ private:
+  Eigen::Matrix3d solve_joint(const DrivenJoint& driven, std::span<const double> markers,
+                              const Eigen::Matrix3d& parent, const Eigen::Vector3d& centre,
+                              std::span<double> channels);
+  Eigen::Matrix3d seen_rotation(const DrivenJoint& driven, std::span<const double> markers,
+                                const Eigen::Matrix3d& to_local,
+                                const Eigen::Vector3d& centre) const;
+
+  const MarkerLayout& layout_;
+  std::vector<double> angles_;  ///< of the last frame, a number a channel, radians
+  std::vector<Eigen::Matrix3d> rotations_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<int> driven_of_joint_;
+};
+
+}  // namespace reprise

@@ -1,0 +1,230 @@
+#include "quant/bit_model.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace reprise {
+namespace {
+
+/// Logits have 8 bits after the point and are cut at 11: a probability of 1 in 60,000.
+constexpr int logit_one = 256;
+constexpr int logit_limit = 11 * logit_one;
+constexpr int weight_one = 65536;
+constexpr int least_probability = 24;
+
+/// e^x by its series, in basic operations alone, which every compiler rounds alike.
+constexpr double exponential(double x) {
+  constexpr int halvings = 6;
+  double sum = 1, term = 1;
+  const double small = x / (1 << halvings);
+  for (int n = 1; n < 20; ++n) sum += (term *= small / n);
+  for (int i = 0; i < halvings; ++i) sum *= sum;
+  return sum;
+}
+
+constexpr auto make_squash_table() {
+  std::array<std::uint16_t, 2 * logit_limit + 1> table{};
+  for (int x = -logit_limit; x <= logit_limit; ++x) {
+    const double p = 65536.0 / (1.0 + exponential(-static_cast<double>(x) / logit_one));
+    table[x + logit_limit] = static_cast<std::uint16_t>(
+        std::clamp(static_cast<int>(p + 0.5), least_probability, 65536 - least_probability));
+  }
+  return table;
+}
+constexpr auto squash_table = make_squash_table();
+
+constexpr int squash(int logit) {
+  return squash_table[std::clamp(logit, -logit_limit, logit_limit) + logit_limit];
+}
+
+constexpr auto make_stretch_table() {
+  std::array<std::int16_t, 4096> table{};
+  int logit = -logit_limit;
+  for (int i = 0; i < 4096; ++i) {
+    while (logit < logit_limit && squash(logit) < i * 16 + 8) ++logit;
+    table[i] = static_cast<std::int16_t>(logit);
+  }
+  return table;
+}
+constexpr auto stretch_table = make_stretch_table();
+
+constexpr auto make_rate_table() {
+  std::array<std::int32_t, BitModelConstants::count_limit + 1> table{};
+  for (int n = 0; n <= BitModelConstants::count_limit; ++n) table[n] = 2 * 65536 / (2 * n + 3);
+  return table;
+}
+constexpr auto rate_table = make_rate_table();
+
+/// Costs of a bit of probability p in 1/65536 bit, by p / 16: log2 by repeated squaring.
+constexpr auto make_cost_table() {
+  std::array<std::uint32_t, 4096> table{};
+  for (int i = 0; i < 4096; ++i) {
+    double x = 65536.0 / (i * 16 + 8);
+    std::uint32_t cost = 0;
+    while (x >= 2) {
+      x /= 2;
+      cost += 65536;
+    }
+    for (std::uint32_t bit = 32768; bit > 0; bit /= 2) {
+      x *= x;
+      if (x >= 2) {
+        x /= 2;
+        cost += bit;
+      }
+    }
+    table[i] = cost;
+  }
+  return table;
+}
+constexpr auto cost_table = make_cost_table();
+
+}  // namespace
+
+void BitCounter::update(bool bit) {
+  const std::int32_t target = bit ? 65535 : 0;
+  const std::int64_t step = static_cast<std::int64_t>(target - probability) * rate_table[count];
+  probability = static_cast<std::uint16_t>(probability + (step >> 16));
+  if (count < BitModelConstants::count_limit) ++count;
+}
+
+BitMixer::BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets)
+    : weights_(weight_sets * BitModelConstants::inputs, weight_one * 3 / 10) {
+  assert(table_sizes.size() == BitModelConstants::inputs);
+  for (std::size_t t = 0; t < tables_.size(); ++t) tables_[t].resize(table_sizes[t]);
+}
+
+Probability BitMixer::predict(const Contexts& contexts) {
+  const std::int32_t* weight = &weights_[contexts.weights * BitModelConstants::inputs];
+  std::int64_t dot = 0;
+  for (int i = 0; i < BitModelConstants::inputs; ++i) {
+    stretched_[i] = stretch_table[tables_[i][contexts.counter[i]].probability >> 4];
+    dot += static_cast<std::int64_t>(weight[i]) * stretched_[i];
+  }
+  const auto logit =
+      static_cast<int>(std::clamp<std::int64_t>(dot >> 16, -logit_limit, logit_limit));
+  predicted_ = static_cast<Probability>(squash(logit));
+  return predicted_;
+}
+
+void BitMixer::update(const Contexts& contexts, bool bit) {
+  std::int32_t* weight = &weights_[contexts.weights * BitModelConstants::inputs];
+  const std::int32_t error =
+      ((bit ? 65535 : 0) - static_cast<std::int32_t>(predicted_)) * BitModelConstants::mixer_rate;
+  for (int i = 0; i < BitModelConstants::inputs; ++i) {
+    weight[i] += static_cast<std::int32_t>(
+        (static_cast<std::int64_t>(stretched_[i]) * error + (1 << 19)) >> 20);
+    tables_[i][contexts.counter[i]].update(bit);
+  }
+}
+
+void BitMixer::encode(RangeEncoder& encoder, const Contexts& contexts, bool bit) {
+  encoder.encode(bit, predict(contexts));
+  update(contexts, bit);
+}
+
+bool BitMixer::decode(RangeDecoder& decoder, const Contexts& contexts) {
+  const bool bit = decoder.decode(predict(contexts));
+  update(contexts, bit);
+  return bit;
+}
+
+std::uint32_t BitMixer::learn(const Contexts& contexts, bool bit) {
+  const Probability one = predict(contexts);
+  update(contexts, bit);
+  return cost_table[(bit ? one : 65536 - one) >> 4];
+}
+
+namespace {
+
+/// Parts of a prior: probabilities as logits in steps of 1/4 nat, counts as their logarithm.
+constexpr int prior_logit_step = logit_one / 4;
+constexpr int prior_logit_limit = logit_limit / prior_logit_step;
+constexpr int prior_logit_bits = 7;
+constexpr int prior_count_bits = 3;
+constexpr int prior_weight_step = weight_one / 32;
+constexpr int prior_weight_limit = 127;
+constexpr int prior_weight_bits = 8;
+
+/// Bits of a small number, each in the context of those before it.
+struct SymbolModel {
+  explicit SymbolModel(int bits) : counters(std::size_t{1} << bits), width(bits) {}
+  std::vector<BitCounter> counters;
+  int width;
+
+  template <class CodeBit>
+  std::uint32_t code(std::uint32_t value, CodeBit&& code_bit) {
+    std::uint32_t node = 1;
+    for (int b = width - 1; b >= 0; --b) {
+      const bool bit = code_bit(counters[node], (value >> b & 1) != 0);
+      counters[node].update(bit);
+      node = node << 1 | bit;
+    }
+    return node - (1u << width);
+  }
+};
+
+int log2_floor(int value) {
+  int result = 0;
+  while (value > 1) value >>= 1, ++result;
+  return result;
+}
+
+Probability probability_of(const BitCounter& counter) {
+  return std::clamp<Probability>(counter.probability, least_probability, 65536 - least_probability);
+}
+
+/// Codes all counters and weights with `code_bit(counter, bit)`, which returns the bit, written or
+/// read.
+template <class Tables, class CodeBit>
+void code_prior(Tables& tables, std::vector<std::int32_t>& weights, CodeBit&& code_bit) {
+  SymbolModel logits(prior_logit_bits), counts(prior_count_bits), weight_model(prior_weight_bits);
+  std::array<BitCounter, 4> seen;
+  for (auto& table : tables) {
+    unsigned history = 0;
+    for (BitCounter& counter : table) {
+      const bool used = code_bit(seen[history & 3], counter.count > 0);
+      seen[history & 3].update(used);
+      history = history << 1 | used;
+      if (!used) continue;
+      const int logit = stretch_table[counter.probability >> 4];
+      const int rounded = (logit + logit_limit + prior_logit_step / 2) / prior_logit_step;
+      const auto stored = logits.code(static_cast<std::uint32_t>(rounded), code_bit);
+      const auto sure = counts.code(
+          static_cast<std::uint32_t>(log2_floor(std::max<int>(counter.count, 1))), code_bit);
+      counter.probability = static_cast<std::uint16_t>(
+          squash((static_cast<int>(stored) - prior_logit_limit) * prior_logit_step));
+      counter.count =
+          static_cast<std::uint16_t>(std::min(1 << sure, BitModelConstants::trained_count));
+    }
+  }
+  for (std::int32_t& weight : weights) {
+    const int rounded = std::clamp((weight + prior_weight_step / 2) / prior_weight_step,
+                                   -prior_weight_limit, prior_weight_limit);
+    const auto stored =
+        weight_model.code(static_cast<std::uint32_t>(rounded + prior_weight_limit), code_bit);
+    weight = (static_cast<int>(stored) - prior_weight_limit) * prior_weight_step;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> BitMixer::prior() const {
+  RangeEncoder encoder;
+  auto tables = tables_;
+  auto weights = weights_;
+  code_prior(tables, weights, [&](const BitCounter& counter, bool bit) {
+    encoder.encode(bit, probability_of(counter));
+    return bit;
+  });
+  return encoder.finish();
+}
+
+bool BitMixer::load_prior(std::span<const std::uint8_t> bytes) {
+  RangeDecoder decoder(bytes);
+  code_prior(tables_, weights_, [&](const BitCounter& counter, bool) {
+    return decoder.decode(probability_of(counter));
+  });
+  return decoder.bytes_past_end() <= 8;
+}
+
+}  // namespace reprise

@@ -1,0 +1,63 @@
+// Adaptive probabilities of binary decisions, mixed from several contexts in the logistic domain.
+// Integers only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "quant/range_coder.h"
+
+namespace reprise {
+
+/// What one context has seen: a probability of a 1, and how sure it is of it.
+struct BitCounter {
+  std::uint16_t probability = 1u << 15;
+  std::uint16_t count = 0;
+
+  void update(bool bit);
+};
+
+/// How fast counters and mixers learn. Tuned on none of the measured sets' totals alone; see
+/// docs/findings.
+struct BitModelConstants {
+  static constexpr int count_limit = 255;  ///< slowest rate of a counter: 1 / (limit + 1.5)
+  static constexpr int trained_count =
+      24;  ///< how sure a counter is at most that comes from a prior
+  static constexpr int mixer_rate = 6;
+  static constexpr int inputs = 5;  ///< contexts of one decision
+};
+
+/// A set of contexts and mixing weights. A decision names one counter of each of `inputs` tables,
+/// and a set of weights.
+class BitMixer {
+ public:
+  BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets);
+
+  struct Contexts {
+    std::array<std::uint32_t, BitModelConstants::inputs> counter;
+    std::uint32_t weights = 0;
+  };
+
+  void encode(RangeEncoder& encoder, const Contexts& contexts, bool bit);
+  bool decode(RangeDecoder& decoder, const Contexts& contexts);
+  /// Learns as if `bit` had been coded; returns its cost in 1/65536 bit.
+  std::uint32_t learn(const Contexts& contexts, bool bit);
+
+  /// Compact bytes of what was learned, and a mixer that starts from them.
+  std::vector<std::uint8_t> prior() const;
+  /// Returns false if `bytes` is not a prior of a mixer of these sizes.
+  bool load_prior(std::span<const std::uint8_t> bytes);
+
+ private:
+  Probability predict(const Contexts& contexts);
+  void update(const Contexts& contexts, bool bit);
+
+  std::array<std::vector<BitCounter>, BitModelConstants::inputs> tables_;
+  std::vector<std::int32_t> weights_;
+  std::array<std::int32_t, BitModelConstants::inputs> stretched_{};
+  Probability predicted_ = 1u << 15;
+};
+
+}  // namespace reprise

@@ -1,0 +1,96 @@
+#include "quant/range_coder.h"
+
+namespace reprise {
+namespace {
+
+constexpr std::uint32_t least_range = 1u << 24;
+
+/// The part of the range that stands for a 1.
+std::uint32_t split(std::uint32_t range, Probability one) {
+  return (range >> probability_bits) * one;
+}
+
+}  // namespace
+
+void RangeEncoder::encode(bool bit, Probability one) {
+  const std::uint32_t bound = split(range_, one);
+  if (bit) {
+    range_ = bound;
+  } else {
+    low_ += bound;
+    range_ -= bound;
+  }
+  while (range_ < least_range) {
+    range_ <<= 8;
+    shift_low();
+  }
+}
+
+void RangeEncoder::encode_plain(std::uint32_t value, int count) {
+  for (int b = count - 1; b >= 0; --b) encode((value >> b & 1) != 0, 1u << (probability_bits - 1));
+}
+
+void RangeEncoder::shift_low() {
+  if (low_ < 0xff000000u || low_ > 0xffffffffu) {
+    const auto carry = static_cast<std::uint8_t>(low_ >> 32);
+    std::uint8_t byte = cache_;
+    do {
+      bytes_.push_back(static_cast<std::uint8_t>(byte + carry));
+      byte = 0xff;
+    } while (--cache_size_ != 0);
+    cache_ = static_cast<std::uint8_t>(low_ >> 24);
+  }
+  ++cache_size_;
+  low_ = (low_ & 0x00ffffffu) << 8;
+}
+
+std::vector<std::uint8_t> RangeEncoder::finish() {
+  // Of all the numbers in [low, low + range) take one that ends in as many zeros as can be.
+  for (int zeros = 31; zeros >= 0; --zeros) {
+    const std::uint64_t mask = (std::uint64_t{1} << zeros) - 1;
+    const std::uint64_t candidate = (low_ + mask) & ~mask;
+    if (candidate < low_ + range_) {
+      low_ = candidate;
+      break;
+    }
+  }
+  for (int i = 0; i < 5; ++i) shift_low();
+  // The first byte is always the cache that was there before anything was coded.
+  bytes_.erase(bytes_.begin());
+  while (!bytes_.empty() && bytes_.back() == 0) bytes_.pop_back();
+  return std::move(bytes_);
+}
+
+RangeDecoder::RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
+  for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next_byte();
+}
+
+std::uint8_t RangeDecoder::next_byte() {
+  if (position_ < bytes_.size()) return bytes_[position_++];
+  ++past_end_;
+  return 0;
+}
+
+bool RangeDecoder::decode(Probability one) {
+  const std::uint32_t bound = split(range_, one);
+  const bool bit = code_ < bound;
+  if (bit) {
+    range_ = bound;
+  } else {
+    code_ -= bound;
+    range_ -= bound;
+  }
+  while (range_ < least_range) {
+    range_ <<= 8;
+    code_ = code_ << 8 | next_byte();
+  }
+  return bit;
+}
+
+std::uint32_t RangeDecoder::decode_plain(int count) {
+  std::uint32_t value = 0;
+  for (int b = 0; b < count; ++b) value = value << 1 | decode(1u << (probability_bits - 1));
+  return value;
+}
+
+}  // namespace reprise

@@ -1,0 +1,239 @@
+#include "quant/space_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "quant/numbers.h"
+#include "reprise/error.h"
+
+namespace reprise {
+namespace {
+
+using Eigen::Index;
+
+/// Angles that change are only looked near; what never changes is held at its value.
+constexpr double active_start_degrees = 15.0;
+constexpr double resting_step = 0.001;  // degrees or units of the file
+/// Steps of the precision parameters: powers of 2^(1/4).
+constexpr double quarter_octave = 1.189207115002721;
+constexpr int precision_bias = 64;
+constexpr std::uint32_t most_axes = 4096;
+
+[[noreturn]] void throw_damaged() {
+  throw Error(ErrorCode::damaged, "the axes of a coefficient space are not as they were written");
+}
+
+double precision_of(std::uint32_t index) {
+  return std::pow(quarter_octave, static_cast<int>(index) - precision_bias);
+}
+
+std::uint32_t index_of_precision(double value) {
+  const auto index = std::lround(std::log(value) / std::log(quarter_octave)) + precision_bias;
+  return static_cast<std::uint32_t>(std::clamp<long>(index, 0, 127));
+}
+
+/// Adaptive magnitudes and signs of axis entries, in classes of how large they should be.
+class EntryModel {
+ public:
+  template <class CodeBit>
+  std::int32_t code(std::int32_t value, int size_class, CodeBit&& code_bit) {
+    auto& counters = classes_[static_cast<std::size_t>(std::clamp(size_class, 0, class_count - 1))];
+    const auto magnitude = static_cast<std::uint32_t>(std::abs(value));
+    const std::uint32_t low = std::min(magnitude, escape);
+    std::uint32_t known = 0;
+    while (known < escape &&
+           bit(counters[std::min<std::uint32_t>(known, 23)], low > known, code_bit)) {
+      ++known;
+    }
+    if (known == escape) {
+      std::uint32_t rest = magnitude - escape;
+      std::uint32_t decoded = 0;
+      for (int b = 15; b >= 0; --b) decoded = decoded << 1 | plain((rest >> b & 1) != 0, code_bit);
+      known += decoded;
+    }
+    if (known == 0) return 0;
+    return plain(value < 0, code_bit) ? -static_cast<std::int32_t>(known)
+                                      : static_cast<std::int32_t>(known);
+  }
+
+ private:
+  static constexpr int class_count = 24;
+  static constexpr std::uint32_t escape = 4096;
+
+  template <class CodeBit>
+  bool bit(BitCounter& counter, bool value, CodeBit&& code_bit) {
+    const auto one = std::clamp<Probability>(counter.probability, 64, 65536 - 64);
+    const bool coded = code_bit(one, value);
+    counter.update(coded);
+    return coded;
+  }
+  template <class CodeBit>
+  bool plain(bool value, CodeBit&& code_bit) {
+    return code_bit(Probability{1} << (probability_bits - 1), value);
+  }
+
+  std::array<std::array<BitCounter, 24>, class_count> classes_;
+};
+
+/// Step of the entries of an axis, from its standard deviation (mm) in powers of 2^(1/2).
+double axis_step(double axis_error, double deviation) { return axis_error / deviation; }
+
+double deviation_of(std::uint32_t index) { return std::pow(2.0, index / 2.0 - 8.0); }
+std::uint32_t index_of_deviation(double deviation) {
+  return static_cast<std::uint32_t>(
+      std::clamp<long>(std::lround(2.0 * (std::log2(std::max(deviation, 1e-3)) + 8.0)), 0, 63));
+}
+
+/// Entries of an orthonormal axis are about 1/sqrt(dimensions): how many steps that is, as its
+/// logarithm.
+int size_class(double step, int dimensions) {
+  return static_cast<int>(std::lround(2.0 * std::log2(1.0 / (step * std::sqrt(dimensions))))) + 4;
+}
+
+struct Writer {
+  RangeEncoder encoder;
+  bool operator()(Probability one, bool value) {
+    encoder.encode(value, one);
+    return value;
+  }
+  std::int32_t number(std::int32_t value) {
+    encode_signed(encoder, value);
+    return value;
+  }
+  std::uint32_t plain(std::uint32_t value, int bits) {
+    encoder.encode_plain(value, bits);
+    return value;
+  }
+};
+
+struct Reader {
+  RangeDecoder decoder;
+  bool operator()(Probability one, bool) { return decoder.decode(one); }
+  std::int32_t number(std::int32_t) { return decode_signed(decoder); }
+  std::uint32_t plain(std::uint32_t, int bits) { return decoder.decode_plain(bits); }
+};
+
+template <class Io>
+void code_choices(Io& io, LayoutChoices& choices, std::size_t channels, std::size_t joints) {
+  BitCounter after[2];
+  bool before = true;
+  choices.active.resize(channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    BitCounter& counter = after[before];
+    before = io(std::clamp<Probability>(counter.probability, 64, 65536 - 64), choices.active[c]);
+    counter.update(before);
+    choices.active[c] = before;
+  }
+  choices.root_joint = io.number(choices.root_joint);
+  choices.up_axis = static_cast<int>(io.plain(static_cast<std::uint32_t>(choices.up_axis), 3));
+  if (choices.root_joint < 0 || choices.root_joint >= static_cast<int>(joints) ||
+      choices.up_axis > 5) {
+    throw_damaged();
+  }
+}
+
+template <class Io>
+void code_start(Io& io, CoefficientSpace& space, std::size_t channels) {
+  space.start.resize(channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double step = space.layout.choices.active[c] ? active_start_degrees : resting_step;
+    const double wanted = std::clamp(space.start[c] / step, -1e9, 1e9);
+    space.start[c] = io.number(static_cast<std::int32_t>(std::lround(wanted))) * step;
+  }
+}
+
+template <class Io>
+void code_mean(Io& io, CoefficientSpace& space, double step) {
+  space.mean.conservativeResize(space.layout.dimensions());
+  for (double& value : space.mean) {
+    value = io.number(static_cast<std::int32_t>(std::lround(value / step))) * step;
+  }
+}
+
+/// Codes the axes from `first` on; a reader has made room for them.
+template <class Io>
+void code_axes(Io& io, CoefficientSpace& space, Index first, double axis_error) {
+  EntryModel model;
+  const int dimensions = space.layout.dimensions();
+  for (Index k = first; k < space.axes.cols(); ++k) {
+    const auto deviation =
+        io.plain(index_of_deviation(std::sqrt(std::max(space.variance[k], 0.0))), 6);
+    space.variance[k] = deviation_of(deviation) * deviation_of(deviation);
+    const double step = axis_step(axis_error, deviation_of(deviation));
+    const int expected = size_class(step, dimensions);
+    for (Index d = 0; d < dimensions; ++d) {
+      const auto entry = static_cast<std::int32_t>(std::lround(space.axes(d, k) / step));
+      space.axes(d, k) = model.code(entry, expected, io) * step;
+    }
+  }
+}
+
+template <class Io>
+void code_space(Io& io, CoefficientSpace& space, const Skeleton& reference, Index known_axes,
+                bool extends, SpacePrecision precision) {
+  const auto channels = static_cast<std::size_t>(reference.channel_count);
+  precision.mean_step_mm = precision_of(io.plain(index_of_precision(precision.mean_step_mm), 7));
+  precision.axis_error_mm = precision_of(io.plain(index_of_precision(precision.axis_error_mm), 7));
+  if (!extends) {
+    code_choices(io, space.layout.choices, channels, reference.joints.size());
+    if (space.layout.reference.joints.empty()) {
+      space.layout = make_marker_layout(reference, space.layout.choices);
+    }
+    code_start(io, space, channels);
+    code_mean(io, space, precision.mean_step_mm);
+  }
+  const std::uint32_t more =
+      io.plain(static_cast<std::uint32_t>(space.axes.cols() - known_axes), 12);
+  if (more + known_axes > std::min<Index>(most_axes, space.layout.dimensions())) throw_damaged();
+  space.axes.conservativeResize(space.layout.dimensions(), known_axes + more);
+  space.variance.conservativeResize(known_axes + more);
+  code_axes(io, space, known_axes, precision.axis_error_mm);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_space(const CoefficientSpace& space, int known_axes,
+                                       const SpacePrecision& precision) {
+  Writer writer;
+  CoefficientSpace copy = space;
+  code_space(writer, copy, space.layout.reference, known_axes, known_axes > 0, precision);
+  return writer.encoder.finish();
+}
+
+CoefficientSpace decode_space(std::span<const std::uint8_t> bytes, const Skeleton& reference,
+                              const CoefficientSpace* base) {
+  Reader reader{RangeDecoder(bytes)};
+  CoefficientSpace space;
+  if (base != nullptr) space = *base;
+  code_space(reader, space, reference, space.axes.cols(), base != nullptr, {});
+  // A stream that needs far more bytes than it has is not one that was written.
+  if (reader.decoder.bytes_past_end() > 16) throw_damaged();
+  return space;
+}
+
+std::vector<std::uint8_t> pack_space(std::span<const std::uint8_t> space,
+                                     std::span<const std::uint8_t> prior) {
+  std::vector<std::uint8_t> blob(4 + space.size() + prior.size());
+  for (int byte = 0; byte < 4; ++byte) {
+    blob[static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(space.size() >> (8 * byte));
+  }
+  std::ranges::copy(space, blob.begin() + 4);
+  std::ranges::copy(prior, blob.begin() + 4 + static_cast<std::ptrdiff_t>(space.size()));
+  return blob;
+}
+
+CodedSpace unpack_space(std::span<const std::uint8_t> blob, const Skeleton& reference,
+                        const CoefficientSpace* base) {
+  if (blob.size() < 4) throw_damaged();
+  std::size_t size = 0;
+  for (int byte = 0; byte < 4; ++byte) size |= std::size_t{blob[byte]} << (8 * byte);
+  if (size > blob.size() - 4) throw_damaged();
+  CodedSpace coded;
+  coded.space = decode_space(blob.subspan(4, size), reference, base);
+  coded.prior.assign(blob.begin() + 4 + static_cast<std::ptrdiff_t>(size), blob.end());
+  if (!coded.model.load_prior(coded.prior)) throw_damaged();
+  return coded;
+}
+
+}  // namespace reprise

@@ -1,0 +1,122 @@
+#include "quant/take_codec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quant/catmull_rom.h"
+#include "quant/numbers.h"
+#include "reprise/error.h"
+
+namespace reprise {
+namespace {
+
+using Eigen::Index;
+
+constexpr int step_bits = 7;
+/// Past the end of its bytes a stream reads zeros; one that wants more than this of them is
+/// damaged.
+constexpr std::size_t most_bytes_past_end = 16;
+
+[[noreturn]] void throw_damaged() {
+  throw Error(ErrorCode::damaged, "the motion of a take is not as it was written");
+}
+
+KnotShape shape_of(const CoefficientSpace& space, const TakeShape& take, bool tumbles) {
+  const TrajectoryKinds kinds = trajectory_kinds(space, tumbles);
+  return {take.frames,
+          kinds.count(),
+          kinds.root,
+          kinds.direct,
+          knot_levels(take.frame_rate, take.frames),
+          first_level_of(take.frame_rate)};
+}
+
+}  // namespace
+
+double quantiser_step(int index) {
+  return std::pow(2.0, static_cast<double>(index) / QuantiserConstants::steps_per_octave);
+}
+
+TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
+                     TrajectoryMatrix trajectories) {
+  TakeKnots result{shape_of(space, take, tumbles), tumbles, std::move(trajectories)};
+  NestedKnots::from_frames(result.knots, result.shape.levels);
+  return result;
+}
+
+QuantisedKnots quantise(const TakeKnots& knots, int step_index) {
+  constexpr double most = 1 << 29;
+  const double scale = 1.0 / quantiser_step(step_index);
+  QuantisedKnots result(knots.knots.rows(), knots.knots.cols());
+  for (Index f = 0; f < result.rows(); ++f) {
+    const bool coarsest = knot_level(f, knots.shape.levels) == knots.shape.levels;
+    const double down =
+        coarsest ? QuantiserConstants::coarse_rounding : QuantiserConstants::rounding;
+    for (Index c = 0; c < result.cols(); ++c) {
+      const double value = std::clamp(knots.knots(f, c) * scale, -most, most);
+      const double magnitude = std::floor(std::abs(value) + 1.0 - down);
+      result(f, c) = static_cast<std::int32_t>(value < 0 ? -magnitude : magnitude);
+    }
+  }
+  return result;
+}
+
+TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& shape,
+                            int step_index) {
+  TrajectoryMatrix trajectories = quantised.cast<double>() * quantiser_step(step_index);
+  NestedKnots::to_frames(trajectories, shape.levels);
+  return trajectories;
+}
+
+std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape& shape,
+                                        const CodedMotion& motion) {
+  RangeEncoder encoder;
+  encoder.encode_plain(static_cast<std::uint32_t>(motion.step_index), step_bits);
+  encoder.encode_plain(motion.tumbles, 1);
+  encode_number(encoder, static_cast<std::uint32_t>(motion.switches.size()));
+  std::int32_t frame = 0;
+  for (const BranchSwitch& branch : motion.switches) {
+    encode_number(encoder, static_cast<std::uint32_t>(branch.frame - frame));
+    encode_number(encoder, static_cast<std::uint32_t>(branch.driven + 1));
+    for (const std::int32_t turn : branch.quarter_turns) encode_signed(encoder, turn);
+    frame = branch.frame;
+  }
+  KnotModel(model).encode(encoder, shape, motion.knots);
+  return encoder.finish();
+}
+
+CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
+                          const TakeShape& take, std::span<const std::uint8_t> bytes) {
+  RangeDecoder decoder(bytes);
+  CodedMotion motion;
+  motion.step_index = static_cast<int>(decoder.decode_plain(step_bits));
+  motion.tumbles = decoder.decode_plain(1) != 0;
+  const std::uint32_t switches = decode_number(decoder);
+  std::int64_t frame = 0;
+  for (std::uint32_t s = 0; s < switches; ++s) {
+    frame += decode_number(decoder);
+    const std::uint32_t driven = decode_number(decoder);
+    if (frame >= take.frames || driven > space.layout.driven.size() ||
+        decoder.bytes_past_end() > most_bytes_past_end) {
+      throw_damaged();
+    }
+    BranchSwitch branch{
+        static_cast<std::int32_t>(frame), static_cast<std::int32_t>(driven) - 1, {}};
+    for (std::int32_t& turn : branch.quarter_turns) turn = decode_signed(decoder);
+    motion.switches.push_back(branch);
+  }
+  motion.knots = KnotModel(model).decode(decoder, shape_of(space, take, motion.tumbles));
+  if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+  return motion;
+}
+
+ChannelMatrix decode_take(const CodedSpace& coded, const Skeleton& skeleton, const TakeShape& take,
+                          std::span<const std::uint8_t> bytes) {
+  const CodedMotion motion = decode_motion(coded.model, coded.space, take, bytes);
+  return to_channels(
+      coded.space, skeleton, motion.tumbles,
+      dequantise(motion.knots, shape_of(coded.space, take, motion.tumbles), motion.step_index),
+      motion.switches);
+}
+
+}  // namespace reprise

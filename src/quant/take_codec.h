@@ -1,0 +1,65 @@
+// One take of `preview` fidelity as bytes and back.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ingest/trajectories.h"
+#include "quant/space_codec.h"
+#include "quant/trajectory_codec.h"
+
+namespace reprise {
+
+/// Constants of the quantiser.
+struct QuantiserConstants {
+  /// Steps are powers of 2^(1/8) of a millimetre.
+  static constexpr int steps_per_octave = 8;
+  static constexpr int most_step = 127;
+  /// A value is rounded up from this part of a step on. Above 0.5: a dead zone, since a zero costs
+  /// least.
+  static constexpr double rounding = 0.60;
+  static constexpr double coarse_rounding = 0.55;
+};
+
+/// The quantisation step (mm) of an index 0 .. most_step.
+double quantiser_step(int index);
+
+struct TakeShape {
+  long frames = 0;
+  double frame_rate = 0;
+};
+
+/// Trajectories as knots, not yet quantised.
+struct TakeKnots {
+  KnotShape shape;
+  bool tumbles = false;
+  Eigen::MatrixXd knots;
+};
+TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
+                     TrajectoryMatrix trajectories);
+
+QuantisedKnots quantise(const TakeKnots& knots, int step_index);
+/// Trajectories as the decoder sees them.
+TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& shape,
+                            int step_index);
+
+/// What decoding a take needs besides its space.
+struct CodedMotion {
+  bool tumbles = false;
+  int step_index = 0;
+  std::vector<BranchSwitch> switches;
+  QuantisedKnots knots;
+};
+
+std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape& shape,
+                                        const CodedMotion& motion);
+/// Throws Error (damaged).
+CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
+                          const TakeShape& take, std::span<const std::uint8_t> bytes);
+
+/// From bytes to channels, on the skeleton of the take. Throws Error (damaged).
+ChannelMatrix decode_take(const CodedSpace& space, const Skeleton& skeleton, const TakeShape& take,
+                          std::span<const std::uint8_t> bytes);
+
+}  // namespace reprise

@@ -1,0 +1,274 @@
+#include "quant/trajectory_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include "quant/catmull_rom.h"
+
+namespace reprise {
+namespace {
+
+using Eigen::Index;
+
+/// What is decided about a knot, one bit at a time.
+enum Decision : std::uint32_t {
+  is_not_zero = 0,
+  is_more_than = 1,  ///< 1 .. unary_limit
+  sign_is_negative = 7,
+  decision_count = 8,
+};
+/// Magnitudes up to this are coded one by one, larger ones by their number of bits.
+constexpr int unary_limit = 6;
+constexpr int exponent_bits = 5;
+
+constexpr std::uint32_t level_slots = 14;  ///< the last one for the coarsest knots
+constexpr std::uint32_t column_slots = 72;
+constexpr std::uint32_t root_slots = 8;
+constexpr std::uint32_t magnitude_bins = 8;
+constexpr std::uint32_t fine_bins = 24;
+constexpr std::uint32_t end_slots = 7;  ///< bits of the number of the last trajectory in use
+
+constexpr std::uint32_t knot_contexts[BitModelConstants::inputs] = {
+    level_slots * column_slots, level_slots* magnitude_bins* magnitude_bins,
+    magnitude_bins* magnitude_bins* magnitude_bins, level_slots* fine_bins,
+    (column_slots / 4) * magnitude_bins * 4};
+
+/// Small numbers apart, large ones by their logarithm.
+std::uint32_t bin(int magnitude) {
+  if (magnitude < 4) return static_cast<std::uint32_t>(magnitude);
+  return magnitude < 6 ? 4 : magnitude < 10 ? 5 : magnitude < 20 ? 6 : 7;
+}
+
+std::uint32_t fine_bin(int magnitude) {
+  if (magnitude < 12) return static_cast<std::uint32_t>(magnitude);
+  int bits = 0;
+  while (magnitude >> (bits + 1)) ++bits;  // 12 has 3
+  const int half = magnitude >> (bits - 1) & 1;
+  return static_cast<std::uint32_t>(std::min<int>(12 + 2 * (bits - 3) + half, fine_bins - 1));
+}
+
+int sign_code(int value) { return value < 0 ? 1 : value > 0 ? 2 : 0; }
+
+/// Walks over the knots, coarse to fine, frame by frame, and codes each bit with `io`, which
+/// writes, reads or learns.
+template <class Io>
+class KnotWalk {
+ public:
+  KnotWalk(Io io, const KnotShape& shape, QuantisedKnots& knots)
+      : io_(io), shape_(shape), knots_(knots) {}
+
+  void run() {
+    for (int level = shape_.levels; level >= 0; --level) {
+      const bool coarsest = level == shape_.levels;
+      const Index stride = Index{1} << level;
+      const Index first = coarsest ? 0 : stride;
+      const Index step = coarsest ? stride : 2 * stride;
+      const std::uint32_t slot =
+          coarsest ? level_slots - 1
+                   : std::min<std::uint32_t>(
+                         level_slots - 2, static_cast<std::uint32_t>(level + shape_.first_level));
+      const int end = code_end(first, step, slot);
+      for (Index frame = first; frame < shape_.frames; frame += step) {
+        for (int column = 0; column < end; ++column)
+          code_knot(frame, column, step, stride, slot, coarsest);
+      }
+    }
+  }
+
+ private:
+  /// One past the last trajectory that has a knot of this level.
+  int code_end(Index first, Index step, std::uint32_t slot) {
+    int end = 0;
+    for (Index frame = first; frame < shape_.frames; frame += step) {
+      for (int column = shape_.trajectories - 1; column >= end; --column) {
+        if (knots_(frame, column) != 0) end = column + 1;
+      }
+    }
+    std::uint32_t node = 1;
+    for (int b = std::bit_width(static_cast<unsigned>(shape_.trajectories)) - 1; b >= 0; --b) {
+      const std::uint32_t bits = std::min<std::uint32_t>(node, (1u << end_slots) - 1);
+      BitMixer::Contexts contexts;
+      for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
+        contexts.counter[t] =
+            decision_count * knot_contexts[t] + (t == 0 ? slot << end_slots | bits : 0);
+      }
+      contexts.weights = decision_count * level_slots;
+      node = node << 1 | io_(contexts, (end >> b & 1) != 0);
+    }
+    const auto width = std::bit_width(static_cast<unsigned>(shape_.trajectories));
+    return std::min<int>(static_cast<int>(node - (1u << width)), shape_.trajectories);
+  }
+
+  int at(Index frame, int column) const {
+    return frame >= 0 && frame < shape_.frames && column >= 0 && column < shape_.trajectories
+               ? knots_(frame, column)
+               : 0;
+  }
+
+  void code_knot(Index frame, int column, Index step, Index stride, std::uint32_t slot,
+                 bool coarsest) {
+    const int before = at(frame - step, column), before_that = at(frame - 2 * step, column);
+    const int left = coarsest ? 0 : at(frame - stride, column);
+    const int right = coarsest ? 0 : at(frame + stride, column);
+    const int beside = at(frame, column - 1), beside_that = at(frame, column - 2);
+    const int predicted = coarsest ? prediction(column, before, before_that) : 0;
+    // Far above the prediction only what differs from it counts.
+    const int a = std::abs(coarsest && predicted != 0 ? before - before_that : before);
+    const int a2 = coarsest ? 0 : std::abs(before_that);
+    const int parents = std::abs(left) + std::abs(right);
+    const int neighbours = 2 * std::abs(beside) + std::abs(beside_that);
+    const auto u = [](auto value) { return static_cast<std::uint32_t>(value); };
+
+    const std::uint32_t column_slot =
+        column < shape_.root ? u(column)
+        : column >= shape_.trajectories - shape_.direct
+            ? column_slots - 1
+            : std::min<std::uint32_t>(root_slots + u(column - shape_.root), column_slots - 2);
+    base_[0] = slot * column_slots + column_slot;
+    base_[1] = (slot * magnitude_bins + bin(2 * a + a2)) * magnitude_bins + bin(parents);
+    base_[2] = (bin(neighbours) * magnitude_bins + bin(a)) * magnitude_bins + bin(parents);
+    base_[3] = slot * fine_bins + fine_bin(2 * a + a2 + parents + neighbours);
+    base_[4] =
+        ((column_slot / 4) * magnitude_bins + bin(a + parents)) * 4 +
+        std::min<std::uint32_t>(
+            u(std::abs(at(frame - step, column + 1)) + std::abs(at(frame - step, column - 1))), 3);
+    slot_ = slot;
+    const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
+    knots_(frame, column) =
+        predicted + code_value(knots_(frame, column) - predicted, signs, column_slot);
+  }
+
+  int prediction(int column, int before, int before_that) const {
+    const bool follows = column < shape_.root || column >= shape_.trajectories - shape_.direct;
+    (void)before_that;
+    return follows ? before : 0;
+  }
+
+  bool decide(std::uint32_t decision, bool bit) {
+    BitMixer::Contexts contexts;
+    for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
+      contexts.counter[t] = decision * knot_contexts[t] + base_[t];
+    }
+    contexts.weights = decision * level_slots + slot_;
+    return io_(contexts, bit);
+  }
+
+  int code_value(int value, const int (&signs)[4], std::uint32_t column_slot) {
+    int magnitude = std::abs(value);
+    if (!decide(is_not_zero, magnitude > 0)) return 0;
+    int known = 1;
+    while (known <= unary_limit && decide(is_more_than + u(known - 1), magnitude > known)) ++known;
+    if (known > unary_limit) known += code_rest(magnitude - known);
+    (void)column_slot;
+    base_[1] = u(signs[0] * 27 + signs[1] * 9 + signs[2] * 3 + signs[3]);
+    base_[2] = u(signs[0] * 3 + signs[3]);
+    base_[3] = u(signs[1] * 3 + signs[2]);
+    base_[4] = u(signs[0]);
+    return decide(sign_is_negative, value < 0) ? -known : known;
+  }
+
+  static std::uint32_t u(int value) { return static_cast<std::uint32_t>(value); }
+
+  /// Numbers beyond the unary ones: how many bits, then the bits.
+  int code_rest(int rest) {
+    const std::uint32_t plus_one = static_cast<std::uint32_t>(rest) + 1;
+    std::uint32_t node = 1;
+    BitMixer::Contexts contexts;
+    for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
+      contexts.counter[t] = decision_count * knot_contexts[t] + (level_slots << end_slots);
+    }
+    contexts.weights = decision_count * level_slots;
+    const auto width = static_cast<std::uint32_t>(std::bit_width(plus_one));
+    for (int b = exponent_bits - 1; b >= 0; --b) {
+      contexts.counter[0] = decision_count * knot_contexts[0] + (level_slots << end_slots) + node;
+      for (std::uint32_t t = 1; t < BitModelConstants::inputs; ++t) {
+        contexts.counter[t] = decision_count * knot_contexts[t];
+      }
+      node = node << 1 | io_(contexts, (width >> b & 1) != 0);
+    }
+    const std::uint32_t bits = node - (1u << exponent_bits);
+    const std::uint32_t coded =
+        bits == 0 ? 1 : (1u << (bits - 1)) | io_.plain(plus_one, static_cast<int>(bits) - 1);
+    return static_cast<int>((coded - 1) & 0x3fffffff);
+  }
+
+  Io io_;
+  const KnotShape& shape_;
+  QuantisedKnots& knots_;
+  std::array<std::uint32_t, BitModelConstants::inputs> base_{};
+  std::uint32_t slot_ = 0;
+};
+
+std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
+  std::array<std::size_t, BitModelConstants::inputs> sizes;
+  for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = decision_count * knot_contexts[t] + 1;
+  sizes[0] += (std::size_t{level_slots} << end_slots) + (1u << exponent_bits);
+  return sizes;
+}
+
+struct Writer {
+  RangeEncoder& encoder;
+  BitMixer& mixer;
+  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
+    mixer.encode(encoder, contexts, bit);
+    return bit;
+  }
+  std::uint32_t plain(std::uint32_t value, int count) {
+    value &= (1u << count) - 1;
+    encoder.encode_plain(value, count);
+    return value;
+  }
+};
+
+struct Reader {
+  RangeDecoder& decoder;
+  BitMixer& mixer;
+  bool operator()(const BitMixer::Contexts& contexts, bool) {
+    return mixer.decode(decoder, contexts);
+  }
+  std::uint32_t plain(std::uint32_t, int count) { return decoder.decode_plain(count); }
+};
+
+struct Learner {
+  std::uint64_t& cost;
+  BitMixer& mixer;
+  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
+    cost += mixer.learn(contexts, bit);
+    return bit;
+  }
+  std::uint32_t plain(std::uint32_t value, int count) {
+    cost += static_cast<std::uint64_t>(count) << 16;
+    return value & ((1u << count) - 1);
+  }
+};
+
+}  // namespace
+
+int first_level_of(double frame_rate) {
+  return std::clamp(static_cast<int>(std::lround(std::log2(120.0 / frame_rate))), 0, 6);
+}
+
+KnotModel::KnotModel() : mixer_(table_sizes(), decision_count * level_slots + 1) {}
+
+void KnotModel::encode(RangeEncoder& encoder, const KnotShape& shape, const QuantisedKnots& knots) {
+  QuantisedKnots copy = knots;
+  KnotWalk<Writer>({encoder, mixer_}, shape, copy).run();
+}
+
+QuantisedKnots KnotModel::decode(RangeDecoder& decoder, const KnotShape& shape) {
+  QuantisedKnots knots = QuantisedKnots::Zero(shape.frames, shape.trajectories);
+  KnotWalk<Reader>({decoder, mixer_}, shape, knots).run();
+  return knots;
+}
+
+double KnotModel::learn(const KnotShape& shape, const QuantisedKnots& knots) {
+  QuantisedKnots copy = knots;
+  std::uint64_t cost = 0;
+  KnotWalk<Learner>({cost, mixer_}, shape, copy).run();
+  return static_cast<double>(cost) / 65536.0;
+}
+
+}  // namespace reprise
