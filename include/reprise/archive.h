@@ -1,4 +1,5 @@
-// The archive: what a program that uses Reprise as a library needs. The command is built on this alone.
+// The archive: what a program that uses Reprise as a library needs. The command is built on this
+// alone.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +18,28 @@
 namespace reprise {
 
 /// How faithful a stored take is. Persisted in archives: never change a value.
-enum class FidelityTier : std::uint8_t { preview = 1, standard = 2, fine = 3, exact = 4, bound = 5 };
+enum class FidelityTier : std::uint8_t {
+  preview = 1,
+  standard = 2,
+  fine = 3,
+  exact = 4,
+  bound = 5
+};
 
 /// "preview", "standard", "fine", "exact", "bound".
 std::string tier_name(FidelityTier tier);
 
 struct Fidelity {
   FidelityTier tier = FidelityTier::preview;
-  double limit_mm = 20.0;  ///< preview: the take's mean joint error; bound: of every joint in every frame
+  double limit_mm =
+      20.0;  ///< preview: the take's mean joint error; bound: of every joint in every frame
 };
 
 enum class ClipKind : std::uint8_t { primary = 1, repeated = 2, unique = 3 };
 std::string clip_kind_name(ClipKind kind);
 
-/// Content address of a clip: a digest of its skeleton's structure and the source's channel values over
-/// its frames. 16 hexadecimal digits.
+/// Content address of a clip: a digest of its skeleton's structure and the source's channel values
+/// over its frames. 16 hexadecimal digits.
 using ClipId = std::string;
 
 struct TakeInfo {
@@ -49,7 +57,7 @@ struct TakeInfo {
   std::uint64_t raw_bytes = 0;   ///< 4 x channels x frames
   std::uint64_t text_bytes = 0;  ///< the source file
   std::uint64_t payload_bytes = 0;
-  PositionErrors error_mm;  ///< as measured at ingest on the decoded take
+  PositionErrors error_mm;    ///< as measured at ingest on the decoded take
   std::string source_digest;  ///< hexadecimal digest of the source file's bytes
 
   double seconds() const { return static_cast<double>(frames) / frame_rate; }
@@ -105,7 +113,8 @@ struct ArchiveStats {
 };
 
 struct ArchiveInfo {
-  std::string content_digest;  ///< hexadecimal; equal for equal content, however it was put together
+  std::string
+      content_digest;  ///< hexadecimal; equal for equal content, however it was put together
   int format_version = 0;
   std::string written_by;
   ArchiveStats stats;
@@ -114,7 +123,8 @@ struct ArchiveInfo {
 struct Damage {
   std::string id;  ///< take, clip or part of the archive
   std::string why;
-  bool outside_fidelity = false;  ///< a take that decodes, but is further from its source than promised
+  bool outside_fidelity =
+      false;  ///< a take that decodes, but is further from its source than promised
 };
 
 struct VerifyReport {
@@ -122,7 +132,8 @@ struct VerifyReport {
   std::size_t takes = 0;
   std::size_t clips = 0;
   std::vector<Damage> damaged;
-  PositionErrors error_mm;  ///< measured against the sources where `against` was given, else as stored
+  PositionErrors
+      error_mm;  ///< measured against the sources where `against` was given, else as stored
 };
 
 struct Progress {
@@ -130,17 +141,17 @@ struct Progress {
   std::size_t total = 0;
   std::string current;  ///< the take or file at hand
 };
-/// Called from one thread at a time. Returning false asks to stop: the call ends with Error (interrupted)
-/// after the batch at hand is complete or rolled back.
+/// Called from one thread at a time. Returning false asks to stop: the call ends with Error
+/// (interrupted) after the batch at hand is complete or rolled back.
 using ProgressSink = std::function<bool(const Progress&)>;
 
 struct IngestOptions {
   std::vector<std::filesystem::path> paths;
   Fidelity fidelity;
   ReadOptions read;
-  unsigned jobs = 1;  ///< worker threads; results do not depend on it
+  unsigned jobs = 1;                              ///< worker threads; results do not depend on it
   std::optional<std::filesystem::path> metadata;  ///< CSV: take, subject, description, tags
-  std::string prefix;  ///< put before the names of this ingest, with '/'
+  std::string prefix;                             ///< put before the names of this ingest, with '/'
   bool replace = false;
   bool dry_run = false;
 };
@@ -158,8 +169,8 @@ struct IngestReport {
   double seconds = 0;
 };
 
-/// Adds takes. Inputs that cannot be taken in are reported, not thrown. Throws Error for what concerns the
-/// archive or the machine. The archive is created with the first take that is stored.
+/// Adds takes. Inputs that cannot be taken in are reported, not thrown. Throws Error for what
+/// concerns the archive or the machine. The archive is created with the first take that is stored.
 IngestReport ingest(const std::filesystem::path& archive, const IngestOptions& options,
                     const ProgressSink& progress = {});
 
@@ -186,7 +197,8 @@ class Archive {
 
   /// A take by name or unambiguous trailing part. Throws Error (not_found) with the candidates.
   TakeInfo find_take(const std::string& id) const;
-  /// Clips by ID or unambiguous prefix of four digits or more: more than one where takes share content.
+  /// Clips by ID or unambiguous prefix of four digits or more: more than one where takes share
+  /// content.
   std::vector<ClipInfo> find_clips(const std::string& id) const;
 
   /// What an ID names: a whole take, or the frames of a clip in its (first) take.
@@ -201,8 +213,8 @@ class Archive {
   Take extract(const TakeInfo& take) const;
   Take extract(const TakeInfo& take, FrameRange frames) const;
 
-  /// Reads and decodes everything; with `against`, measures each take against its source in that folder
-  /// and holds it to its fidelity.
+  /// Reads and decodes everything; with `against`, measures each take against its source in that
+  /// folder and holds it to its fidelity.
   VerifyReport verify(const std::optional<std::filesystem::path>& against = std::nullopt,
                       const ReadOptions& read = {}, const ProgressSink& progress = {}) const;
 

@@ -1,4 +1,5 @@
-// What goes wrong through no fault of ours: one exception type that says what, where and what to do.
+// What goes wrong through no fault of ours: one exception type that says what, where and what to
+// do.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,8 @@ struct SourcePlace {
   std::size_t line = 0;
 };
 
-/// An error that a user can cause. `what()` is one sentence, prefixed with "file:line: " where known.
+/// An error that a user can cause. `what()` is one sentence, prefixed with "file:line: " where
+/// known.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& reason, SourcePlace place = {}, std::string advice = {});

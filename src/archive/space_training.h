@@ -12,9 +12,9 @@ namespace reprise {
 
 struct TrainingConstants {
   /// What the axes may leave of the allowed mean error (part of it, root mean square).
-  static constexpr double residual_share = 0.35;
+  static constexpr double residual_share = 0.32;
   /// What rounding the axes and the mean may add, as parts of it.
-  static constexpr double axis_share = 0.05;
+  static constexpr double axis_share = 0.12;
   static constexpr double mean_share = 0.1;
   /// Frames are taken this many times a second.
   static constexpr double frames_a_second = 15.0;

@@ -71,6 +71,7 @@ class StepSearch {
   FittedTake measure(int step) const {
     FittedTake tried;
     tried.shape = knots_.shape;
+    tried.shape.step_index = step;
     tried.motion = {knots_.tumbles, step, switches_, quantise(knots_, step)};
     const PositionMatrix decoded =
         joint_positions(*take_.skeleton, decode(step, tried.motion.knots));

@@ -186,15 +186,9 @@ void list_direct_channels(MarkerLayout& layout) {
 
 std::vector<RotationChannel> rotation_channels(const Joint& joint) {
   std::vector<RotationChannel> result;
-  std::vector<bool> used(joint.channels.size(), false);
-  for (const int axis : joint.rotation_order) {
-    for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-      if (used[c] || !is_rotation(joint.channels[c]) || axis_of(joint.channels[c]) != axis)
-        continue;
-      used[c] = true;
-      result.push_back({axis, joint.first_channel + static_cast<int>(c), false});
-      break;
-    }
+  for (std::size_t k = 0; k < joint.rotation_order.size(); ++k) {
+    result.push_back(
+        {joint.rotation_order[k], joint.first_channel + joint.rotation_slots[k], false});
   }
   return result;
 }

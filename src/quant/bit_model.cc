@@ -144,6 +144,8 @@ constexpr int prior_count_bits = 3;
 constexpr int prior_weight_step = weight_one / 32;
 constexpr int prior_weight_limit = 127;
 constexpr int prior_weight_bits = 8;
+/// A context seen less often than this is not worth its bytes.
+constexpr int least_prior_count = 4;
 
 /// Bits of a small number, each in the context of those before it.
 struct SymbolModel {
@@ -179,10 +181,10 @@ template <class Tables, class CodeBit>
 void code_prior(Tables& tables, std::vector<std::int32_t>& weights, CodeBit&& code_bit) {
   SymbolModel logits(prior_logit_bits), counts(prior_count_bits), weight_model(prior_weight_bits);
   std::array<BitCounter, 4> seen;
-  for (auto& table : tables) {
+  for (std::size_t t = 0; t + 1 < tables.size(); ++t) {
     unsigned history = 0;
-    for (BitCounter& counter : table) {
-      const bool used = code_bit(seen[history & 3], counter.count > 0);
+    for (BitCounter& counter : tables[t]) {
+      const bool used = code_bit(seen[history & 3], counter.count >= least_prior_count);
       seen[history & 3].update(used);
       history = history << 1 | used;
       if (!used) continue;
@@ -208,23 +210,19 @@ void code_prior(Tables& tables, std::vector<std::int32_t>& weights, CodeBit&& co
 
 }  // namespace
 
-std::vector<std::uint8_t> BitMixer::prior() const {
-  RangeEncoder encoder;
+void BitMixer::save(RangeEncoder& encoder) const {
   auto tables = tables_;
   auto weights = weights_;
   code_prior(tables, weights, [&](const BitCounter& counter, bool bit) {
     encoder.encode(bit, probability_of(counter));
     return bit;
   });
-  return encoder.finish();
 }
 
-bool BitMixer::load_prior(std::span<const std::uint8_t> bytes) {
-  RangeDecoder decoder(bytes);
+void BitMixer::load(RangeDecoder& decoder) {
   code_prior(tables_, weights_, [&](const BitCounter& counter, bool) {
     return decoder.decode(probability_of(counter));
   });
-  return decoder.bytes_past_end() <= 8;
 }
 
 }  // namespace reprise

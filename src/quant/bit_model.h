@@ -19,12 +19,10 @@ struct BitCounter {
   void update(bool bit);
 };
 
-/// How fast counters and mixers learn. Tuned on none of the measured sets' totals alone; see
-/// docs/findings.
+/// How fast counters and mixers learn; docs/findings/2026-11-24-preview-coder.md has what was tried.
 struct BitModelConstants {
-  static constexpr int count_limit = 255;  ///< slowest rate of a counter: 1 / (limit + 1.5)
-  static constexpr int trained_count =
-      24;  ///< how sure a counter is at most that comes from a prior
+  static constexpr int count_limit = 255;   ///< slowest rate of a counter: 1 / (limit + 1.5)
+  static constexpr int trained_count = 12;  ///< how sure a counter from a prior is at most
   static constexpr int mixer_rate = 6;
   static constexpr int inputs = 5;  ///< contexts of one decision
 };
@@ -45,10 +43,10 @@ class BitMixer {
   /// Learns as if `bit` had been coded; returns its cost in 1/65536 bit.
   std::uint32_t learn(const Contexts& contexts, bool bit);
 
-  /// Compact bytes of what was learned, and a mixer that starts from them.
-  std::vector<std::uint8_t> prior() const;
-  /// Returns false if `bytes` is not a prior of a mixer of these sizes.
-  bool load_prior(std::span<const std::uint8_t> bytes);
+  /// Writes what was learned, but for the last table, whose contexts are too many to be worth it.
+  void save(RangeEncoder& encoder) const;
+  /// Starts from what was saved of a mixer of the same sizes.
+  void load(RangeDecoder& decoder);
 
  private:
   Probability predict(const Contexts& contexts);

@@ -81,7 +81,9 @@ std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape&
     for (const std::int32_t turn : branch.quarter_turns) encode_signed(encoder, turn);
     frame = branch.frame;
   }
-  KnotModel(model).encode(encoder, shape, motion.knots);
+  KnotShape stepped = shape;
+  stepped.step_index = motion.step_index;
+  KnotModel(model).encode(encoder, stepped, motion.knots);
   return encoder.finish();
 }
 
@@ -105,7 +107,9 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
     for (std::int32_t& turn : branch.quarter_turns) turn = decode_signed(decoder);
     motion.switches.push_back(branch);
   }
-  motion.knots = KnotModel(model).decode(decoder, shape_of(space, take, motion.tumbles));
+  KnotShape shape = shape_of(space, take, motion.tumbles);
+  shape.step_index = motion.step_index;
+  motion.knots = KnotModel(model).decode(decoder, shape);
   if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
   return motion;
 }

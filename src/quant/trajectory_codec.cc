@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "quant/catmull_rom.h"
+#include "quant/numbers.h"
 
 namespace reprise {
 namespace {
@@ -24,17 +25,19 @@ enum Decision : std::uint32_t {
 constexpr int unary_limit = 6;
 constexpr int exponent_bits = 5;
 
-constexpr std::uint32_t level_slots = 14;  ///< the last one for the coarsest knots
+constexpr std::uint32_t level_slots = KnotScales::level_slots;
 constexpr std::uint32_t column_slots = 72;
 constexpr std::uint32_t root_slots = 8;
 constexpr std::uint32_t magnitude_bins = 8;
 constexpr std::uint32_t fine_bins = 24;
 constexpr std::uint32_t end_slots = 7;  ///< bits of the number of the last trajectory in use
 
+constexpr std::uint32_t scale_bins = 24;
+
 constexpr std::uint32_t knot_contexts[BitModelConstants::inputs] = {
-    level_slots * column_slots, level_slots* magnitude_bins* magnitude_bins,
-    magnitude_bins* magnitude_bins* magnitude_bins, level_slots* fine_bins,
-    (column_slots / 4) * magnitude_bins * 4};
+    scale_bins * level_slots, level_slots* magnitude_bins* magnitude_bins,
+    magnitude_bins* magnitude_bins* magnitude_bins, scale_bins / 2 * fine_bins,
+    level_slots* column_slots};
 
 /// Small numbers apart, large ones by their logarithm.
 std::uint32_t bin(int magnitude) {
@@ -57,8 +60,8 @@ int sign_code(int value) { return value < 0 ? 1 : value > 0 ? 2 : 0; }
 template <class Io>
 class KnotWalk {
  public:
-  KnotWalk(Io io, const KnotShape& shape, QuantisedKnots& knots)
-      : io_(io), shape_(shape), knots_(knots) {}
+  KnotWalk(Io io, const KnotScales& scales, const KnotShape& shape, QuantisedKnots& knots)
+      : io_(io), scales_(scales), shape_(shape), knots_(knots) {}
 
   void run() {
     for (int level = shape_.levels; level >= 0; --level) {
@@ -66,10 +69,7 @@ class KnotWalk {
       const Index stride = Index{1} << level;
       const Index first = coarsest ? 0 : stride;
       const Index step = coarsest ? stride : 2 * stride;
-      const std::uint32_t slot =
-          coarsest ? level_slots - 1
-                   : std::min<std::uint32_t>(
-                         level_slots - 2, static_cast<std::uint32_t>(level + shape_.first_level));
+      const auto slot = u(level_slot(shape_, level));
       const int end = code_end(first, step, slot);
       for (Index frame = first; frame < shape_.frames; frame += step) {
         for (int column = 0; column < end; ++column)
@@ -127,14 +127,14 @@ class KnotWalk {
         : column >= shape_.trajectories - shape_.direct
             ? column_slots - 1
             : std::min<std::uint32_t>(root_slots + u(column - shape_.root), column_slots - 2);
-    base_[0] = slot * column_slots + column_slot;
+    const auto expected = u(std::clamp(
+        scales_.at(shape_, static_cast<int>(slot), column) - shape_.step_index / 4 + 8, 0,
+        static_cast<int>(scale_bins) - 1));
+    base_[0] = expected * level_slots + slot;
     base_[1] = (slot * magnitude_bins + bin(2 * a + a2)) * magnitude_bins + bin(parents);
     base_[2] = (bin(neighbours) * magnitude_bins + bin(a)) * magnitude_bins + bin(parents);
-    base_[3] = slot * fine_bins + fine_bin(2 * a + a2 + parents + neighbours);
-    base_[4] =
-        ((column_slot / 4) * magnitude_bins + bin(a + parents)) * 4 +
-        std::min<std::uint32_t>(
-            u(std::abs(at(frame - step, column + 1)) + std::abs(at(frame - step, column - 1))), 3);
+    base_[3] = expected / 2 * fine_bins + fine_bin(2 * a + a2 + parents + neighbours);
+    base_[4] = slot * column_slots + column_slot;
     slot_ = slot;
     const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
     knots_(frame, column) =
@@ -196,6 +196,7 @@ class KnotWalk {
   }
 
   Io io_;
+  const KnotScales& scales_;
   const KnotShape& shape_;
   QuantisedKnots& knots_;
   std::array<std::uint32_t, BitModelConstants::inputs> base_{};
@@ -207,6 +208,17 @@ std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
   for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = decision_count * knot_contexts[t] + 1;
   sizes[0] += (std::size_t{level_slots} << end_slots) + (1u << exponent_bits);
   return sizes;
+}
+
+constexpr std::uint32_t most_columns = 1u << 16;
+
+/// A scale is likely to be that of the trajectory before, as the level before differs there.
+int expected_scale(const KnotScales& scales, std::size_t i) {
+  const auto columns = static_cast<std::size_t>(scales.columns);
+  const std::size_t row = i / columns, column = i % columns;
+  const int left = column > 0 ? scales.codes[i - 1] : 0;
+  const int above = row > 0 ? scales.codes[i - columns] : left;
+  return column == 0 ? above : row == 0 ? left : (left + above) / 2;
 }
 
 struct Writer {
@@ -251,23 +263,99 @@ int first_level_of(double frame_rate) {
   return std::clamp(static_cast<int>(std::lround(std::log2(120.0 / frame_rate))), 0, 6);
 }
 
-KnotModel::KnotModel() : mixer_(table_sizes(), decision_count * level_slots + 1) {}
+int level_slot(const KnotShape& shape, int level) {
+  return level == shape.levels ? KnotScales::level_slots - 1
+                               : std::min(KnotScales::level_slots - 2, level + shape.first_level);
+}
+
+int KnotScales::column_of(const KnotShape& shape, int column) const {
+  // Columns of a take that does not tumble; the further columns of one that does are taken for its heading's.
+  constexpr int upright_root = 4;
+  if (column < shape.root) return std::min(column, upright_root - 1);
+  return column - shape.root + std::min(shape.root, upright_root);
+}
+
+void KnotScales::add(const KnotShape& shape, const Eigen::MatrixXd& knots) {
+  if (shape.root > 4) return;
+  if (squares_.empty()) {
+    columns = shape.trajectories;
+    squares_.assign(static_cast<std::size_t>(level_slots * columns), 0);
+    counts_ = squares_;
+  }
+  for (Index f = 0; f < knots.rows(); ++f) {
+    const int slot = level_slot(shape, knot_level(f, shape.levels));
+    for (int c = 0; c < columns; ++c) {
+      // The coarsest knots of the root are coded by what they differ from the one before.
+      const bool follows = slot == level_slots - 1 && (c < shape.root || c >= columns - shape.direct);
+      const Index before = f - (Index{1} << shape.levels);
+      if (follows && before < 0) continue;
+      const double value = knots(f, c) - (follows ? knots(before, c) : 0.0);
+      squares_[static_cast<std::size_t>(slot * columns + c)] += value * value;
+      counts_[static_cast<std::size_t>(slot * columns + c)] += 1;
+    }
+  }
+}
+
+void KnotScales::settle() {
+  codes.clear();
+  for (std::size_t i = 0; i < squares_.size(); ++i) {
+    const double mean = counts_[i] > 0 ? squares_[i] / counts_[i] : 0;
+    const double half_octaves = std::log2(std::max(mean, 1e-12));  // 2 log2 of the root
+    codes.push_back(static_cast<std::int8_t>(
+        std::clamp(static_cast<int>(std::lround(half_octaves)), least, most)));
+  }
+}
+
+int KnotScales::at(const KnotShape& shape, int slot, int column) const {
+  const int own = column_of(shape, column);
+  return own < columns ? codes[static_cast<std::size_t>(slot * columns + own)] : least;
+}
+
+KnotModel::KnotModel(KnotScales scales)
+    : scales_(std::move(scales)), mixer_(table_sizes(), decision_count * level_slots + 1) {}
+
+std::vector<std::uint8_t> KnotModel::prior(bool with_contexts) const {
+  RangeEncoder encoder;
+  encode_number(encoder, static_cast<std::uint32_t>(scales_.columns));
+  for (std::size_t i = 0; i < scales_.codes.size(); ++i) {
+    encode_signed(encoder, scales_.codes[i] - expected_scale(scales_, i));
+  }
+  encoder.encode_plain(with_contexts, 1);
+  if (with_contexts) mixer_.save(encoder);
+  return encoder.finish();
+}
+
+bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
+  RangeDecoder decoder(bytes);
+  const std::uint32_t columns = decode_number(decoder);
+  if (columns > most_columns) return false;
+  scales_ = {};
+  scales_.columns = static_cast<int>(columns);
+  scales_.codes.resize(columns * level_slots);
+  for (std::size_t i = 0; i < scales_.codes.size(); ++i) {
+    scales_.codes[i] = static_cast<std::int8_t>(
+        std::clamp(decode_signed(decoder) + expected_scale(scales_, i), KnotScales::least,
+                   KnotScales::most));
+  }
+  if (decoder.decode_plain(1) != 0) mixer_.load(decoder);
+  return decoder.bytes_past_end() <= 16;
+}
 
 void KnotModel::encode(RangeEncoder& encoder, const KnotShape& shape, const QuantisedKnots& knots) {
   QuantisedKnots copy = knots;
-  KnotWalk<Writer>({encoder, mixer_}, shape, copy).run();
+  KnotWalk<Writer>({encoder, mixer_}, scales_, shape, copy).run();
 }
 
 QuantisedKnots KnotModel::decode(RangeDecoder& decoder, const KnotShape& shape) {
   QuantisedKnots knots = QuantisedKnots::Zero(shape.frames, shape.trajectories);
-  KnotWalk<Reader>({decoder, mixer_}, shape, knots).run();
+  KnotWalk<Reader>({decoder, mixer_}, scales_, shape, knots).run();
   return knots;
 }
 
 double KnotModel::learn(const KnotShape& shape, const QuantisedKnots& knots) {
   QuantisedKnots copy = knots;
   std::uint64_t cost = 0;
-  KnotWalk<Learner>({cost, mixer_}, shape, copy).run();
+  KnotWalk<Learner>({cost, mixer_}, scales_, shape, copy).run();
   return static_cast<double>(cost) / 65536.0;
 }
 

@@ -24,24 +24,55 @@ struct KnotShape {
   /// The finest level counted in frames of 120 Hz, so that takes of all rates share what was
   /// learned of a level: 0 at 120 Hz, 1 at 60 Hz, 2 at 30 Hz.
   int first_level = 0;
+  int step_index = 0;  ///< of the quantiser
 };
 int first_level_of(double frame_rate);
+
+/// How large the knots of each trajectory and level are over the takes of a space (root mean square): what the
+/// coder expects before it has seen any. Levels are counted from 120 Hz; the last row is the coarsest knots.
+class KnotScales {
+ public:
+  static constexpr int level_slots = 14;
+  /// Logarithms in half octaves; a trajectory that never moves has the least.
+  static constexpr int least = -20, most = 43;
+
+  /// Sums up unquantised knots (mm); tumbling takes say nothing of the root's columns.
+  void add(const KnotShape& shape, const Eigen::MatrixXd& knots);
+  /// Ends the summing.
+  void settle();
+
+  /// `trajectories` is root + axes + direct channels of a take.
+  int at(const KnotShape& shape, int level_slot, int column) const;
+
+  /// Row by row, for the space's prior.
+  std::vector<std::int8_t> codes;  ///< level_slots x columns
+  int columns = 0;
+
+ private:
+  int column_of(const KnotShape& shape, int column) const;
+  std::vector<double> squares_, counts_;
+};
+
+/// Row of a level in KnotScales.
+int level_slot(const KnotShape& shape, int level);
 
 /// Contexts of all decisions, learned from takes; one model is made for a space and copied for each
 /// take.
 class KnotModel {
  public:
-  KnotModel();
+  explicit KnotModel(KnotScales scales = {});
 
   void encode(RangeEncoder& encoder, const KnotShape& shape, const QuantisedKnots& knots);
   QuantisedKnots decode(RangeDecoder& decoder, const KnotShape& shape);
   /// Learns from knots; returns what they would cost, in bits.
   double learn(const KnotShape& shape, const QuantisedKnots& knots);
 
-  std::vector<std::uint8_t> prior() const { return mixer_.prior(); }
-  bool load_prior(std::span<const std::uint8_t> bytes) { return mixer_.load_prior(bytes); }
+  /// What was learned, as bytes; a model made with the same scales starts from them. False: not a prior.
+  std::vector<std::uint8_t> prior(bool with_contexts) const;
+  bool load_prior(std::span<const std::uint8_t> bytes);
 
  private:
+  KnotScales scales_;
   BitMixer mixer_;
 };
 

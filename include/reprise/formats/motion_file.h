@@ -10,7 +10,8 @@
 
 namespace reprise {
 
-/// Limits on hostile or mistaken input; a file beyond one is rejected with the limit named (docs/limits.md).
+/// Limits on hostile or mistaken input; a file beyond one is rejected with the limit named
+/// (docs/limits.md).
 struct InputLimits {
   static constexpr std::size_t joints = 4096;
   static constexpr std::size_t channels = 16384;
@@ -24,16 +25,17 @@ struct InputLimits {
 /// What the files themselves do not say.
 struct ReadOptions {
   double bvh_millimetres_per_unit = 10.0;
-  std::optional<double> amc_frame_rate;       ///< else 120 Hz, and the take says that it was assumed
-  std::optional<std::filesystem::path> asf;   ///< else the skeleton beside the AMC (find_asf)
+  std::optional<double> amc_frame_rate;      ///< else 120 Hz, and the take says that it was assumed
+  std::optional<std::filesystem::path> asf;  ///< else the skeleton beside the AMC (find_asf)
 };
 
-/// Parsers of text in memory. `file` names it in errors. Throw Error (rejected_input) with file and line.
-/// The take's name is left empty. Frames that the file lacks are not invented: a BVH has the frames that
-/// its lines hold; where `Frames:` disagrees the file is rejected.
+/// Parsers of text in memory. `file` names it in errors. Throw Error (rejected_input) with file and
+/// line. The take's name is left empty. Frames that the file lacks are not invented: a BVH has the
+/// frames that its lines hold; where `Frames:` disagrees the file is rejected.
 Take read_bvh(std::string_view text, const std::string& file, double millimetres_per_unit = 10.0);
 Skeleton read_asf(std::string_view text, const std::string& file);
-Take read_amc(std::string_view text, const std::string& file, std::shared_ptr<const Skeleton> skeleton,
+Take read_amc(std::string_view text, const std::string& file,
+              std::shared_ptr<const Skeleton> skeleton,
               std::optional<double> frame_rate = std::nullopt);
 
 /// The skeleton of a BVH text that ends where `MOTION` would stand (Skeleton::source_text).
@@ -43,18 +45,19 @@ Skeleton read_bvh_skeleton(std::string_view text, const std::string& file,
 /// True for the extensions .bvh and .amc, in any case.
 bool is_motion_file(const std::filesystem::path& path);
 
-/// The ASF of an AMC: its own name with .asf, else the file name up to the first '_' with .asf, else the
-/// only ASF in its folder. Throws Error (rejected_input) that says what was looked for.
+/// The ASF of an AMC: its own name with .asf, else the file name up to the first '_' with .asf,
+/// else the only ASF in its folder. Throws Error (rejected_input) that says what was looked for.
 std::filesystem::path find_asf(const std::filesystem::path& amc);
 
 /// Reads a file by its extension. Throws Error (rejected_input).
 Take read_motion_file(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The whole content of a file. Throws Error (rejected_input) where it cannot be read or is beyond the limit.
+/// The whole content of a file. Throws Error (rejected_input) where it cannot be read or is beyond
+/// the limit.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// The text of a take in its own format, with the header of its source (frame count as in the take) and
-/// numbers with `decimals` digits after the point.
+/// The text of a take in its own format, with the header of its source (frame count as in the take)
+/// and numbers with `decimals` digits after the point.
 std::string write_bvh(const Take& take, int decimals = 6);
 std::string write_amc(const Take& take, int decimals = 6);
 /// write_bvh or write_amc, by the skeleton's format.

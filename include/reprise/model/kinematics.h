@@ -25,8 +25,8 @@ Eigen::Matrix3d axis_rotation(int axis, double radians);
 /// The product E of a joint's rotation channels (skeleton.h); `channels` is a whole frame.
 Eigen::Matrix3d local_rotation(const Joint& joint, std::span<const double> channels);
 
-/// Forward kinematics of one frame. `channels` has skeleton.channel_count numbers, `joints` receives one
-/// frame a joint.
+/// Forward kinematics of one frame. `channels` has skeleton.channel_count numbers, `joints`
+/// receives one frame a joint.
 void forward_kinematics(const Skeleton& skeleton, std::span<const double> channels,
                         std::span<JointFrame> joints);
 

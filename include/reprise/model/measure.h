@@ -9,7 +9,8 @@
 
 namespace reprise {
 
-/// Distances between the same joints of two motions, over all joints, end sites and frames; millimetres.
+/// Distances between the same joints of two motions, over all joints, end sites and frames;
+/// millimetres.
 struct PositionErrors {
   double mean = 0;
   double rms = 0;
@@ -17,7 +18,8 @@ struct PositionErrors {
   double max = 0;
 };
 
-/// Mean horizontal speed of the foot joints (mm/s) while the original's are in contact with the floor.
+/// Mean horizontal speed of the foot joints (mm/s) while the original's are in contact with the
+/// floor.
 struct FootSkate {
   double original = 0;
   double decoded = 0;
@@ -31,18 +33,21 @@ struct Comparison {
   std::optional<FootSkate> foot_skate;  ///< none without foot joints or contacts
 };
 
-/// Both frames x 3*joints in millimetres with the same number of columns; compares the frames that both have.
+/// Both frames x 3*joints in millimetres with the same number of columns; compares the frames that
+/// both have.
 PositionErrors position_errors(const PositionMatrix& original, const PositionMatrix& decoded);
 
-/// Distance of each joint in each frame (frames x joints, row-major order), the frames that both have.
+/// Distance of each joint in each frame (frames x joints, row-major order), the frames that both
+/// have.
 std::vector<float> joint_distances(const PositionMatrix& original, const PositionMatrix& decoded);
 
 /// mean, rms, p99 and max of a set of distances, which is reordered. p99 is interpolated linearly.
 PositionErrors summarise_distances(std::vector<float>& distances);
 
-/// A joint's name, with an end site's being "End" and the name of none; a foot joint is one whose name has foot, toe or
-/// ankle in it, in any case. Contact: within 50 mm of the floor (5th percentile of the heights of all
-/// foot joints of the original) and slower than 150 mm/s; speeds are central differences over 50 ms.
+/// A foot joint is one whose name has foot, toe or
+/// ankle in it, in any case. Contact: within 50 mm of the floor (5th percentile of the heights of
+/// all foot joints of the original) and slower than 150 mm/s; speeds are central differences over
+/// 50 ms.
 std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatrix& original,
                                     const PositionMatrix& decoded, double frame_rate);
 

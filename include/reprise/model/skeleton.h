@@ -36,21 +36,25 @@ constexpr int axis_of(Channel channel) { return static_cast<int>(channel) % 3; }
 ///   R = R_parent A E A^T
 ///   BVH: P = P_parent + R_parent t, t = `offset` with the components replaced that have a position
 ///        channel. The joint turns about P itself.
-///   ASF: P = P_parent + R_parent A t + R (`offset` + l * unit(offset)), t the position channels, l the
+///   ASF: P = P_parent + R_parent A t + R (`offset` + l * unit(offset)), t the position channels, l
+///   the
 ///        length channel. A bone turns about its parent's point, and P is the bone's far end. The
 ///        root's position channels add to `offset`, as in the format's description.
 struct Joint {
-  std::string name;                  ///< an end site has the name "" and no channels
-  int parent = -1;                   ///< index of the parent; parents come before their children
-  Eigen::Vector3d offset{0, 0, 0};   ///< in the file's length unit
-  std::vector<Channel> channels;     ///< in the order of the file's numbers
-  std::vector<int> rotation_order;   ///< axes 0..2 of the rotation channels, outermost (leftmost) first
+  std::string name;                 ///< an end site has the name "" and no channels
+  int parent = -1;                  ///< index of the parent; parents come before their children
+  Eigen::Vector3d offset{0, 0, 0};  ///< in the file's length unit
+  std::vector<Channel> channels;    ///< in the order of the file's numbers
+  std::vector<int>
+      rotation_order;  ///< axes 0..2 of the rotation channels, outermost (leftmost) first
+  std::vector<int> rotation_slots;                     ///< of each of them: its index in `channels`
   Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();  ///< ASF: the bone's local axes C
   bool end_site = false;
   int first_channel = 0;  ///< index of the first of `channels` in a frame
 };
 
-/// Joints in file order (hierarchy first, depth first for BVH; root and then `:hierarchy` order for ASF).
+/// Joints in file order (hierarchy first, depth first for BVH; root and then `:hierarchy` order for
+/// ASF).
 struct Skeleton {
   MotionFormat format = MotionFormat::bvh;
   std::vector<Joint> joints;
@@ -62,8 +66,8 @@ struct Skeleton {
   std::string asf_name;  ///< ASF: file name without folder and extension, else empty
 };
 
-/// True if both have the same names, hierarchy, channels and rotation orders, so that their takes can
-/// share one coefficient space; offsets, lengths and axes may differ.
+/// True if both have the same names, hierarchy, channels and rotation orders, so that their takes
+/// can share one coefficient space; offsets, lengths and axes may differ.
 bool same_structure(const Skeleton& a, const Skeleton& b);
 
 /// Canonical bytes of all that `same_structure` compares, for digests.

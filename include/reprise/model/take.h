@@ -27,8 +27,8 @@ struct TakeLayout {
 struct Take {
   std::string name;  ///< path under the ingested folder without extension, with '/'
   std::shared_ptr<const Skeleton> skeleton;
-  ChannelMatrix channels;  ///< frames x skeleton->channel_count
-  double frame_rate = 0;   ///< frames a second; greater than 0
+  ChannelMatrix channels;           ///< frames x skeleton->channel_count
+  double frame_rate = 0;            ///< frames a second; greater than 0
   bool frame_rate_assumed = false;  ///< the file does not say it (AMC), or says 0 (BVH)
   TakeLayout layout;
 

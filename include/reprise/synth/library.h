@@ -18,8 +18,8 @@ struct SynthOptions {
   MotionFormat format = MotionFormat::bvh;
 };
 
-/// One place where a motion occurs. `speed` is relative to the first of its group, `noise` the RMS of the
-/// noise in degrees a joint.
+/// One place where a motion occurs. `speed` is relative to the first of its group, `noise` the RMS
+/// of the noise in degrees a joint.
 struct SynthOccurrence {
   std::string file;  ///< take name
   double start_s = 0;
@@ -35,9 +35,9 @@ struct SynthLibrary {
 
 SynthLibrary make_synthetic_library(const SynthOptions& options);
 
-/// Writes the takes (and ASF files) in one folder a subject, and truth.json; returns the number of files.
-/// Existing files are replaced only with `overwrite`. Throws Error (failed).
-std::size_t write_synthetic_library(const std::filesystem::path& folder, const SynthOptions& options,
-                                    bool overwrite);
+/// Writes the takes (and ASF files) in one folder a subject, and truth.json; returns the number of
+/// files. Existing files are replaced only with `overwrite`. Throws Error (failed).
+std::size_t write_synthetic_library(const std::filesystem::path& folder,
+                                    const SynthOptions& options, bool overwrite);
 
 }  // namespace reprise

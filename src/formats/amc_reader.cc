@@ -1,0 +1,127 @@
+// AMC: for each frame its number, then a line a bone with the values of its degrees of freedom.
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "formats/text_lines.h"
+#include "reprise/formats/motion_file.h"
+
+namespace reprise {
+namespace {
+
+constexpr double default_frame_rate = 120.0;  // CMU's, which most AMC files come from
+
+class AmcReader {
+ public:
+  AmcReader(std::string_view text, const std::string& file, const Skeleton& skeleton)
+      : text_(text), lines_(text, file), skeleton_(skeleton) {
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+      index_.emplace(skeleton.joints[j].name, static_cast<int>(j));
+    }
+    row_.assign(static_cast<std::size_t>(skeleton.channel_count), 0.0);
+  }
+
+  void read(Take& take) {
+    take_ = &take;
+    std::string_view line;
+    while (lines_.next(line)) {
+      std::string_view rest = line.substr(0, line.find('#'));
+      const std::string_view word = next_word(rest);
+      if (word.empty()) continue;
+      if (word.front() == ':') {
+        if (frames_ > 0) lines_.reject("a keyword stands between frames: " + in_quotes(word));
+        if (equal_ignoring_case(word, ":RADIANS")) take.layout.radians = true;
+        if (equal_ignoring_case(word, ":DEGREES")) take.layout.radians = false;
+      } else if (trimmed(rest).empty() && to_count(word)) {
+        begin_frame(*to_count(word));
+      } else {
+        bone(word, rest);
+      }
+    }
+    end_frame();
+    if (frames_ == 0) lines_.reject("there are no frames");
+    take.channels = Eigen::Map<ChannelMatrix>(values_.data(), frames_, skeleton_.channel_count);
+  }
+
+ private:
+  void begin_frame(long number) {
+    if (frames_ == 0) {
+      take_->layout.first_frame_number = number;
+      take_->layout.amc_header = std::string(text_.substr(0, lines_.line_start()));
+    } else {
+      end_frame();
+      if (number != take_->layout.first_frame_number + frames_) {
+        lines_.reject("frame " + std::to_string(number) + " comes where frame " +
+                      std::to_string(take_->layout.first_frame_number + frames_) + " should");
+      }
+    }
+    ++frames_;
+    next_bone_ = 0;
+  }
+
+  void end_frame() {
+    if (frames_ == 0) return;
+    if (next_bone_ != take_->layout.amc_joints.size()) {
+      lines_.reject("the frame before this line leaves out the bone " +
+                    in_quotes(skeleton_.joints[take_->layout.amc_joints[next_bone_]].name));
+    }
+    values_.insert(values_.end(), row_.begin(), row_.end());
+  }
+
+  void bone(std::string_view word, std::string_view rest) {
+    if (frames_ == 0) lines_.reject("a bone's values come before the first frame's number");
+    std::vector<int>& bones = take_->layout.amc_joints;
+    const bool first = frames_ == 1;
+    if (first) {
+      const auto found = index_.find(word);
+      if (found == index_.end()) lines_.reject("the skeleton has no bone " + in_quotes(word));
+      if (std::ranges::count(bones, found->second) > 0) {
+        lines_.reject("a frame has the bone " + in_quotes(word) + " twice");
+      }
+      bones.push_back(found->second);
+    } else if (next_bone_ >= bones.size() || skeleton_.joints[bones[next_bone_]].name != word) {
+      lines_.reject("the bones of this frame are not those of the first: " + in_quotes(word));
+    }
+    values(skeleton_.joints[bones[next_bone_++]], rest);
+  }
+
+  void values(const Joint& joint, std::string_view rest) {
+    const double scale = take_->layout.radians ? 180.0 / std::numbers::pi : 1.0;
+    std::size_t c = 0;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++c) {
+      const std::optional<double> value = to_number(word);
+      if (!value) lines_.reject("this is not a number: " + in_quotes(word));
+      if (c < joint.channels.size()) {
+        row_[joint.first_channel + c] = is_rotation(joint.channels[c]) ? *value * scale : *value;
+      }
+    }
+    if (c != joint.channels.size()) {
+      lines_.reject("the bone " + in_quotes(joint.name) + " has " + std::to_string(c) +
+                    " values where its skeleton has " + std::to_string(joint.channels.size()) +
+                    " degrees of freedom");
+    }
+  }
+
+  std::string_view text_;
+  TextLines lines_;
+  const Skeleton& skeleton_;
+  Take* take_ = nullptr;
+  std::map<std::string, int, std::less<>> index_;
+  std::vector<double> row_, values_;
+  long frames_ = 0;
+  std::size_t next_bone_ = 0;
+};
+
+}  // namespace
+
+Take read_amc(std::string_view text, const std::string& file,
+              std::shared_ptr<const Skeleton> skeleton, std::optional<double> frame_rate) {
+  Take take;
+  take.skeleton = std::move(skeleton);
+  take.frame_rate = frame_rate.value_or(default_frame_rate);
+  take.frame_rate_assumed = !frame_rate.has_value();
+  AmcReader(text, file, *take.skeleton).read(take);
+  return take;
+}
+
+}  // namespace reprise

@@ -1,0 +1,270 @@
+// ASF: a skeleton in sections; a bone has a direction, a length, axes and degrees of freedom.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "formats/text_lines.h"
+#include "reprise/formats/motion_file.h"
+#include "reprise/model/kinematics.h"
+
+namespace reprise {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::array<std::string_view, 7> channel_words = {"TX", "TY", "TZ", "RX", "RY", "RZ", "L"};
+constexpr double millimetres_per_inch = 25.4;
+
+/// "XYZ" as axes, the first of which turns first.
+std::optional<std::vector<int>> axis_order(std::string_view word) {
+  if (word.size() != 3) return std::nullopt;
+  std::vector<int> order;
+  for (const char c : word) {
+    const auto axis = std::string_view("XYZ").find(static_cast<char>(c >= 'a' ? c - 32 : c));
+    if (axis == std::string_view::npos || std::ranges::count(order, static_cast<int>(axis)) > 0) {
+      return std::nullopt;
+    }
+    order.push_back(static_cast<int>(axis));
+  }
+  return order;
+}
+
+class AsfReader {
+ public:
+  AsfReader(std::string_view text, const std::string& file) : lines_(text, file) {
+    skeleton_.format = MotionFormat::asf_amc;
+    skeleton_.millimetres_per_unit = millimetres_per_inch;
+    skeleton_.source_text = std::string(text);
+    Joint root;
+    root.name = "root";
+    joints_.push_back(root);
+    orders_.push_back({0, 1, 2});
+  }
+
+  Skeleton read() {
+    std::string_view line;
+    while (lines_.next(line)) {
+      line = line.substr(0, line.find('#'));
+      std::string_view rest = line;
+      const std::string_view word = next_word(rest);
+      if (word.empty()) continue;
+      if (word.front() == ':') {
+        section_ = std::string(word.substr(1));
+        if (in_bone_) lines_.reject("a bone has no 'end'");
+      } else if (equal_ignoring_case(section_, "units")) {
+        units(word, rest);
+      } else if (equal_ignoring_case(section_, "root")) {
+        root(word, rest);
+      } else if (equal_ignoring_case(section_, "bonedata")) {
+        bone(word, rest);
+      } else if (equal_ignoring_case(section_, "hierarchy")) {
+        hierarchy(word, rest);
+      } else if (section_.empty()) {
+        lines_.reject("an ASF file begins with a section such as ':version', not " +
+                      in_quotes(word));
+      }
+    }
+    return finish();
+  }
+
+ private:
+  double number(std::string_view& rest, const char* what) {
+    const std::string_view word = next_word(rest);
+    const std::optional<double> value = to_number(word);
+    if (!value) lines_.reject(std::string(what) + " needs a number, not " + in_quotes(word));
+    return *value;
+  }
+
+  Vector3d vector(std::string_view& rest, const char* what) {
+    Vector3d result;
+    for (double& value : result) value = number(rest, what);
+    return result;
+  }
+
+  void units(std::string_view word, std::string_view rest) {
+    if (equal_ignoring_case(word, "length")) {
+      const double length = number(rest, "'length'");
+      if (!(length > 0)) lines_.reject("'length' must be greater than 0");
+      skeleton_.millimetres_per_unit = millimetres_per_inch / length;
+    } else if (equal_ignoring_case(word, "angle")) {
+      const std::string_view unit = next_word(rest);
+      radians_ = equal_ignoring_case(unit.substr(0, 3), "rad");
+      if (!radians_ && !equal_ignoring_case(unit.substr(0, 3), "deg")) {
+        lines_.reject("'angle' is deg or rad, not " + in_quotes(unit));
+      }
+    }
+  }
+
+  void root(std::string_view word, std::string_view rest) {
+    Joint& joint = joints_[0];
+    if (equal_ignoring_case(word, "order")) {
+      degrees_of_freedom(joint, rest);
+    } else if (equal_ignoring_case(word, "axis")) {
+      orders_[0] = order(rest);
+    } else if (equal_ignoring_case(word, "position")) {
+      joint.offset = vector(rest, "'position'");
+    } else if (equal_ignoring_case(word, "orientation")) {
+      turns_[0] = vector(rest, "'orientation'");
+    }
+  }
+
+  std::vector<int> order(std::string_view& rest) {
+    const std::string_view word = next_word(rest);
+    const auto axes = axis_order(word);
+    if (!axes) lines_.reject("an axis order is three letters such as XYZ, not " + in_quotes(word));
+    return *axes;
+  }
+
+  void degrees_of_freedom(Joint& joint, std::string_view rest) {
+    joint.channels.clear();
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+      const auto* name = std::ranges::find_if(
+          channel_words, [&](std::string_view n) { return equal_ignoring_case(n, word); });
+      if (name == channel_words.end())
+        lines_.reject("there is no such degree of freedom: " + in_quotes(word));
+      const auto channel = static_cast<Channel>(name - channel_words.begin());
+      if (std::ranges::count(joint.channels, channel) > 0) {
+        lines_.reject("a bone has the degree of freedom " + in_quotes(word) + " twice");
+      }
+      joint.channels.push_back(channel);
+    }
+  }
+
+  void bone(std::string_view word, std::string_view rest) {
+    if (equal_ignoring_case(word, "begin")) {
+      if (in_bone_) lines_.reject("a bone begins inside of another");
+      if (joints_.size() >= InputLimits::joints) {
+        lines_.reject("there are more than " + std::to_string(InputLimits::joints) + " bones");
+      }
+      in_bone_ = true;
+      joints_.emplace_back();
+      orders_.push_back({0, 1, 2});
+      lengths_[joints_.size() - 1] = 1;
+    } else if (!in_bone_) {
+      lines_.reject("bone data stands outside of 'begin' and 'end': " + in_quotes(word));
+    } else if (equal_ignoring_case(word, "end")) {
+      end_bone();
+    } else if (equal_ignoring_case(word, "name")) {
+      joints_.back().name = std::string(trimmed(rest));
+      if (joints_.back().name.size() > InputLimits::name_bytes) lines_.reject("a name is too long");
+    } else if (equal_ignoring_case(word, "direction")) {
+      joints_.back().offset = vector(rest, "'direction'");
+    } else if (equal_ignoring_case(word, "length")) {
+      lengths_[joints_.size() - 1] = number(rest, "'length'");
+    } else if (equal_ignoring_case(word, "axis")) {
+      turns_[joints_.size() - 1] = vector(rest, "'axis'");
+      if (!trimmed(rest).empty()) orders_.back() = order(rest);
+    } else if (equal_ignoring_case(word, "dof")) {
+      degrees_of_freedom(joints_.back(), rest);
+    }
+  }
+
+  void end_bone() {
+    in_bone_ = false;
+    const Joint& joint = joints_.back();
+    if (joint.name.empty()) lines_.reject("a bone has no name");
+    if (!index_.emplace(joint.name, joints_.size() - 1).second || joint.name == "root") {
+      lines_.reject("there are two bones named " + in_quotes(joint.name));
+    }
+  }
+
+  void hierarchy(std::string_view word, std::string_view rest) {
+    if (equal_ignoring_case(word, "begin") || equal_ignoring_case(word, "end")) return;
+    const std::size_t parent = bone_index(word);
+    for (std::string_view child = next_word(rest); !child.empty(); child = next_word(rest)) {
+      const std::size_t joint = bone_index(child);
+      if (joint == 0 || parents_.contains(joint))
+        lines_.reject(in_quotes(child) + " has two parents");
+      if (parent != 0 && !parents_.contains(parent)) {
+        lines_.reject(in_quotes(word) + " has children before it has a parent");
+      }
+      parents_[joint] = parent;
+      in_order_.push_back(joint);
+    }
+  }
+
+  std::size_t bone_index(std::string_view name) const {
+    if (name == "root") return 0;
+    const auto found = index_.find(name);
+    if (found == index_.end())
+      lines_.reject("the hierarchy names a bone that is not there: " + in_quotes(name));
+    return found->second;
+  }
+
+  /// The matrix of three angles, the first axis of the order turning first.
+  Eigen::Matrix3d matrix_of(std::size_t joint) const {
+    const auto turns = turns_.find(joint);
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+    if (turns == turns_.end()) return matrix;
+    const double scale = radians_ ? 1.0 : std::numbers::pi / 180.0;
+    for (const int axis : orders_[joint]) {
+      matrix = axis_rotation(axis, turns->second[axis_place(joint, axis)] * scale) * matrix;
+    }
+    return matrix;
+  }
+
+  /// Angles are given for x, y and z whatever the order.
+  static int axis_place(std::size_t, int axis) { return axis; }
+
+  Skeleton finish() {
+    if (in_bone_) lines_.reject("the file ends inside of a bone");
+    if (joints_[0].channels.empty()) lines_.reject("the skeleton's root has no 'order'");
+    if (in_order_.size() + 1 != joints_.size()) {
+      for (const auto& [name, joint] : index_) {
+        if (!parents_.contains(joint))
+          lines_.reject("the hierarchy leaves out the bone " + in_quotes(name));
+      }
+    }
+    std::map<std::size_t, int> place{{0, 0}};
+    add_joint(0, -1);
+    for (const std::size_t joint : in_order_) {
+      place[joint] = static_cast<int>(skeleton_.joints.size());
+      add_joint(joint, place.at(parents_.at(joint)));
+    }
+    if (skeleton_.channel_count > static_cast<int>(InputLimits::channels)) {
+      lines_.reject("there are more than " + std::to_string(InputLimits::channels) + " channels");
+    }
+    return std::move(skeleton_);
+  }
+
+  void add_joint(std::size_t index, int parent) {
+    Joint joint = joints_[index];
+    joint.parent = parent;
+    joint.axis = matrix_of(index);
+    if (index > 0) joint.offset *= lengths_.at(index);
+    // The last axis of the order turns last, so it stands outermost.
+    for (auto axis = orders_[index].rbegin(); axis != orders_[index].rend(); ++axis) {
+      for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+        if (!is_rotation(joint.channels[c]) || axis_of(joint.channels[c]) != *axis) continue;
+        joint.rotation_order.push_back(*axis);
+        joint.rotation_slots.push_back(static_cast<int>(c));
+      }
+    }
+    joint.first_channel = skeleton_.channel_count;
+    skeleton_.channel_count += static_cast<int>(joint.channels.size());
+    skeleton_.joints.push_back(std::move(joint));
+  }
+
+  TextLines lines_;
+  Skeleton skeleton_;
+  std::string section_;
+  bool radians_ = false;
+  bool in_bone_ = false;
+  std::vector<Joint> joints_;              // the root, then bones as they come
+  std::vector<std::vector<int>> orders_;   // of each: its axis order
+  std::map<std::size_t, Vector3d> turns_;  // of each: the angles of its axes
+  std::map<std::size_t, double> lengths_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+  std::map<std::size_t, std::size_t> parents_;
+  std::vector<std::size_t> in_order_;
+};
+
+}  // namespace
+
+Skeleton read_asf(std::string_view text, const std::string& file) {
+  return AsfReader(text, file).read();
+}
+
+}  // namespace reprise

@@ -1,0 +1,277 @@
+// BVH: a hierarchy of joints, then a line of numbers a frame.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "formats/text_lines.h"
+#include "reprise/formats/motion_file.h"
+
+namespace reprise {
+namespace {
+
+constexpr std::array<std::string_view, 6> channel_names = {"Xposition", "Yposition", "Zposition",
+                                                           "Xrotation", "Yrotation", "Zrotation"};
+/// What a frame time of 0 is taken for, as viewers do.
+constexpr double assumed_frame_rate = 60.0;
+
+/// Reads the hierarchy, with a stack of its own instead of recursion.
+class HierarchyReader {
+ public:
+  HierarchyReader(TextLines& lines, double millimetres_per_unit) : lines_(lines) {
+    skeleton_.format = MotionFormat::bvh;
+    skeleton_.millimetres_per_unit = millimetres_per_unit;
+  }
+
+  /// Reads up to the line `MOTION`, or to the end of the text where `motion_follows` is false.
+  Skeleton read(std::string_view text, bool motion_follows) {
+    std::string_view line;
+    bool hierarchy = false;
+    while (lines_.next(line)) {
+      std::string_view rest = line;
+      const std::string_view word = next_word(rest);
+      if (word.empty()) continue;
+      if (!hierarchy) {
+        if (!equal_ignoring_case(word, "HIERARCHY")) {
+          lines_.reject("a BVH file begins with HIERARCHY, not " + in_quotes(word));
+        }
+        hierarchy = true;
+      } else if (equal_ignoring_case(word, "MOTION")) {
+        finish(text.substr(0, lines_.line_start()));
+        return std::move(skeleton_);
+      } else {
+        statement(word, rest);
+      }
+    }
+    if (!hierarchy) lines_.reject("the file is empty");
+    if (motion_follows) lines_.reject("the file ends before MOTION");
+    finish(text);
+    return std::move(skeleton_);
+  }
+
+ private:
+  void statement(std::string_view word, std::string_view rest) {
+    if (equal_ignoring_case(word, "ROOT") || equal_ignoring_case(word, "JOINT")) {
+      // A brace may stand behind the name.
+      begin_joint(trimmed(rest), false);
+    } else if (equal_ignoring_case(word, "End")) {
+      begin_joint(trimmed(rest), true);
+    } else if (word == "{") {
+      open_brace();
+      more(rest);
+    } else if (word == "}") {
+      close_brace();
+      more(rest);
+    } else if (equal_ignoring_case(word, "OFFSET")) {
+      offset(rest);
+    } else if (equal_ignoring_case(word, "CHANNELS")) {
+      channels(rest);
+    } else {
+      lines_.reject("there is no such word in a BVH hierarchy: " + in_quotes(word));
+    }
+  }
+
+  void more(std::string_view rest) {
+    const std::string_view word = next_word(rest);
+    if (!word.empty()) statement(word, rest);
+  }
+
+  void begin_joint(std::string_view name, bool end_site) {
+    bool brace = false;
+    if (!name.empty() && name.back() == '{') {
+      name = trimmed(name.substr(0, name.size() - 1));
+      brace = true;
+    }
+    if (waiting_) lines_.reject("a joint begins before the brace of the one above it");
+    if (open_.empty() && !skeleton_.joints.empty()) lines_.reject("there is a second ROOT");
+    if (open_.empty() && end_site) lines_.reject("an end site stands outside of every joint");
+    if (!open_.empty() && skeleton_.joints[open_.back()].end_site) {
+      lines_.reject("an end site has a child");
+    }
+    if (name.size() > InputLimits::name_bytes) {
+      lines_.reject("a name is longer than " + std::to_string(InputLimits::name_bytes) + " bytes");
+    }
+    if (name.empty() && !end_site) lines_.reject("a joint has no name");
+    if (skeleton_.joints.size() >= InputLimits::joints) {
+      lines_.reject("there are more than " + std::to_string(InputLimits::joints) + " joints");
+    }
+    Joint joint;
+    joint.name = end_site ? std::string() : std::string(name);
+    joint.parent = open_.empty() ? -1 : open_.back();
+    joint.end_site = end_site;
+    skeleton_.joints.push_back(std::move(joint));
+    waiting_ = true;
+    if (brace) open_brace();
+  }
+
+  void open_brace() {
+    if (!waiting_) lines_.reject("a brace opens without a joint before it");
+    waiting_ = false;
+    if (open_.size() >= InputLimits::depth) {
+      lines_.reject("joints are nested deeper than " + std::to_string(InputLimits::depth));
+    }
+    open_.push_back(static_cast<int>(skeleton_.joints.size()) - 1);
+  }
+
+  void close_brace() {
+    if (waiting_ || open_.empty()) lines_.reject("a brace closes that was never opened");
+    open_.pop_back();
+  }
+
+  Joint& current() {
+    if (waiting_ || open_.empty())
+      lines_.reject("this line stands outside of every joint's braces");
+    return skeleton_.joints[open_.back()];
+  }
+
+  void offset(std::string_view rest) {
+    Joint& joint = current();
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view word = next_word(rest);
+      const std::optional<double> value = to_number(word);
+      if (!value) lines_.reject("OFFSET needs three numbers, not " + in_quotes(word));
+      joint.offset[axis] = *value;
+    }
+    more(rest);
+  }
+
+  void channels(std::string_view rest) {
+    Joint& joint = current();
+    if (joint.end_site) lines_.reject("an end site has no channels");
+    if (!joint.channels.empty()) lines_.reject("a joint has CHANNELS twice");
+    const std::string_view count_word = next_word(rest);
+    const std::optional<long> count = to_count(count_word);
+    if (!count || *count > 6)
+      lines_.reject("CHANNELS needs a count of 0 to 6, not " + in_quotes(count_word));
+    joint.first_channel = skeleton_.channel_count;
+    for (long c = 0; c < *count; ++c) {
+      const std::string_view word = next_word(rest);
+      const auto* name = std::ranges::find_if(
+          channel_names, [&](std::string_view n) { return equal_ignoring_case(n, word); });
+      if (name == channel_names.end()) {
+        lines_.reject(word.empty() ? "CHANNELS names fewer channels than it says"
+                                   : "there is no such channel: " + in_quotes(word));
+      }
+      const auto channel = static_cast<Channel>(name - channel_names.begin());
+      if (is_position(channel) && std::ranges::count(joint.channels, channel) > 0) {
+        lines_.reject("a joint has the channel " + in_quotes(word) + " twice");
+      }
+      if (is_rotation(channel)) {
+        joint.rotation_order.push_back(axis_of(channel));
+        joint.rotation_slots.push_back(static_cast<int>(c));
+      }
+      joint.channels.push_back(channel);
+    }
+    skeleton_.channel_count += static_cast<int>(*count);
+    if (skeleton_.channel_count > static_cast<int>(InputLimits::channels)) {
+      lines_.reject("there are more than " + std::to_string(InputLimits::channels) + " channels");
+    }
+    more(rest);
+  }
+
+  void finish(std::string_view source) {
+    if (!open_.empty() || waiting_) lines_.reject("the hierarchy ends with a brace left open");
+    if (skeleton_.joints.empty()) lines_.reject("the hierarchy has no ROOT");
+    int first = 0;
+    for (Joint& joint : skeleton_.joints) {
+      joint.first_channel = first;
+      first += static_cast<int>(joint.channels.size());
+    }
+    skeleton_.source_text = std::string(source);
+  }
+
+  TextLines& lines_;
+  Skeleton skeleton_;
+  std::vector<int> open_;
+  bool waiting_ = false;
+};
+
+/// The rest of a line after `keyword`, which may be followed by a colon; nothing if it is another
+/// line.
+std::optional<std::string_view> after_keyword(std::string_view line, std::string_view keyword) {
+  line = trimmed(line);
+  if (line.size() < keyword.size() ||
+      !equal_ignoring_case(line.substr(0, keyword.size()), keyword)) {
+    return std::nullopt;
+  }
+  line = trimmed(line.substr(keyword.size()));
+  if (!line.empty() && line.front() == ':') line.remove_prefix(1);
+  return trimmed(line);
+}
+
+std::string_view next_filled_line(TextLines& lines, const char* what) {
+  std::string_view line;
+  while (lines.next(line)) {
+    if (!trimmed(line).empty()) return line;
+  }
+  lines.reject(std::string("the file ends before ") + what);
+}
+
+long read_frame_count(TextLines& lines) {
+  const auto rest = after_keyword(next_filled_line(lines, "'Frames:'"), "Frames");
+  const auto count = rest ? to_count(*rest) : std::nullopt;
+  if (!count) lines.reject("after MOTION comes 'Frames:' with a count");
+  return *count;
+}
+
+void read_frame_time(TextLines& lines, Take& take) {
+  const auto rest = after_keyword(next_filled_line(lines, "'Frame Time:'"), "Frame Time");
+  const auto seconds = rest ? to_number(*rest) : std::nullopt;
+  if (!seconds || *seconds < 0)
+    lines.reject("after 'Frames:' comes 'Frame Time:' with the seconds of a frame");
+  take.layout.frame_time_text = std::string(*rest);
+  take.frame_rate_assumed = *seconds == 0;
+  take.frame_rate = take.frame_rate_assumed ? assumed_frame_rate : 1.0 / *seconds;
+  if (!(take.frame_rate > 1e-3 && take.frame_rate < 1e6)) {
+    lines.reject("a frame time of " + take.layout.frame_time_text + " s cannot be meant",
+                 "frame times are in seconds");
+  }
+}
+
+void read_frames(TextLines& lines, long frames, Take& take) {
+  const std::size_t width = static_cast<std::size_t>(take.skeleton->channel_count);
+  std::vector<double> values;
+  std::string_view line;
+  long rows = 0;
+  while (lines.next(line)) {
+    std::size_t in_row = 0;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      const std::optional<double> value = to_number(word);
+      if (!value) lines.reject("this is not a number: " + in_quotes(word));
+      values.push_back(*value);
+      ++in_row;
+    }
+    if (in_row == 0) continue;
+    if (in_row != width) {
+      lines.reject("a frame has " + std::to_string(in_row) + " numbers where the hierarchy has " +
+                   std::to_string(width) + " channels");
+    }
+    ++rows;
+  }
+  if (rows != frames) {
+    lines.reject("'Frames:' says " + std::to_string(frames) + ", but there are " +
+                 std::to_string(rows));
+  }
+  take.channels = Eigen::Map<ChannelMatrix>(values.data(), rows, static_cast<Eigen::Index>(width));
+}
+
+}  // namespace
+
+Skeleton read_bvh_skeleton(std::string_view text, const std::string& file,
+                           double millimetres_per_unit) {
+  TextLines lines(text, file);
+  return HierarchyReader(lines, millimetres_per_unit).read(text, false);
+}
+
+Take read_bvh(std::string_view text, const std::string& file, double millimetres_per_unit) {
+  TextLines lines(text, file);
+  Take take;
+  take.skeleton =
+      std::make_shared<Skeleton>(HierarchyReader(lines, millimetres_per_unit).read(text, true));
+  if (take.skeleton->channel_count == 0) lines.reject("no joint has channels");
+  const long frames = read_frame_count(lines);
+  read_frame_time(lines, take);
+  read_frames(lines, frames, take);
+  return take;
+}
+
+}  // namespace reprise

@@ -1,0 +1,140 @@
+#include "reprise/model/measure.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "reprise/error.h"
+
+namespace reprise {
+namespace {
+
+using Eigen::Index;
+
+// Foot contact, as docs/measures.md defines it.
+constexpr double contact_height_mm = 50.0;
+constexpr double contact_speed_mm_s = 150.0;
+constexpr double floor_percentile = 5.0;
+constexpr double half_window_s = 0.025;
+constexpr Index least_frames = 8;
+constexpr int up_axis = 1;
+
+/// The p-th percentile of sorted numbers, between neighbours in a straight line.
+template <class Number>
+double percentile(const std::vector<Number>& sorted, double p) {
+  const double at = p / 100.0 * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const double part = at - static_cast<double>(below);
+  return static_cast<double>(sorted[below]) * (1 - part) +
+         static_cast<double>(sorted[above]) * part;
+}
+
+bool is_foot(const std::string& name) {
+  std::string lower = name;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower.find("foot") != std::string::npos || lower.find("toe") != std::string::npos ||
+         lower.find("ankle") != std::string::npos;
+}
+
+/// Horizontal speed (mm/s) of a joint over 2h frames around frame f.
+double horizontal_speed(const PositionMatrix& positions, int joint, Index f, Index h, double rate) {
+  const double x = positions(f + h, 3 * joint) - positions(f - h, 3 * joint);
+  const double z = positions(f + h, 3 * joint + 2) - positions(f - h, 3 * joint + 2);
+  return std::hypot(x, z) * rate / (2.0 * static_cast<double>(h));
+}
+
+double d_percent(const PositionMatrix& original, const PositionMatrix& decoded, Index frames) {
+  const auto a = original.topRows(frames);
+  const double moved = (a.rowwise() - a.colwise().mean()).norm();
+  return moved > 0 ? 100.0 * (a - decoded.topRows(frames)).norm() / moved : 0.0;
+}
+
+}  // namespace
+
+std::vector<float> joint_distances(const PositionMatrix& original, const PositionMatrix& decoded) {
+  const Index frames = std::min(original.rows(), decoded.rows());
+  const Index joints = original.cols() / 3;
+  std::vector<float> distances;
+  distances.reserve(static_cast<std::size_t>(frames * joints));
+  for (Index f = 0; f < frames; ++f) {
+    for (Index j = 0; j < joints; ++j) {
+      distances.push_back(static_cast<float>(
+          (original.row(f).segment<3>(3 * j) - decoded.row(f).segment<3>(3 * j)).norm()));
+    }
+  }
+  return distances;
+}
+
+PositionErrors summarise_distances(std::vector<float>& distances) {
+  PositionErrors errors;
+  if (distances.empty()) return errors;
+  std::sort(distances.begin(), distances.end());
+  double sum = 0, squares = 0;
+  for (const float distance : distances) {
+    sum += distance;
+    squares += static_cast<double>(distance) * distance;
+  }
+  const auto count = static_cast<double>(distances.size());
+  errors.mean = sum / count;
+  errors.rms = std::sqrt(squares / count);
+  errors.p99 = percentile(distances, 99);
+  errors.max = distances.back();
+  return errors;
+}
+
+PositionErrors position_errors(const PositionMatrix& original, const PositionMatrix& decoded) {
+  std::vector<float> distances = joint_distances(original, decoded);
+  return summarise_distances(distances);
+}
+
+std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatrix& original,
+                                    const PositionMatrix& decoded, double frame_rate) {
+  const Index frames = std::min(original.rows(), decoded.rows());
+  std::vector<int> feet;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    if (is_foot(skeleton.joints[j].name)) feet.push_back(static_cast<int>(j));
+  }
+  if (feet.empty() || frames < least_frames) return std::nullopt;
+  const Index h = std::max<Index>(1, std::lround(half_window_s * frame_rate));
+  std::vector<double> heights;
+  for (const int joint : feet) {
+    for (Index f = 0; f < frames; ++f) heights.push_back(original(f, 3 * joint + up_axis));
+  }
+  std::sort(heights.begin(), heights.end());
+  const double floor = percentile(heights, floor_percentile);
+  double in_original = 0, in_decoded = 0;
+  long contacts = 0;
+  for (const int joint : feet) {
+    for (Index f = h; f + h < frames; ++f) {
+      const double speed = horizontal_speed(original, joint, f, h, frame_rate);
+      const bool touches = original(f, 3 * joint + up_axis) < floor + contact_height_mm;
+      if (!touches || speed >= contact_speed_mm_s) continue;
+      in_original += speed;
+      in_decoded += horizontal_speed(decoded, joint, f, h, frame_rate);
+      ++contacts;
+    }
+  }
+  if (contacts == 0) return std::nullopt;
+  return FootSkate{in_original / static_cast<double>(contacts),
+                   in_decoded / static_cast<double>(contacts)};
+}
+
+Comparison compare_takes(const Take& original, const Take& decoded) {
+  if (original.skeleton->joints.size() != decoded.skeleton->joints.size()) {
+    throw Error(ErrorCode::failed, "the two motions have different skeletons: " +
+                                       std::to_string(original.skeleton->joints.size()) + " and " +
+                                       std::to_string(decoded.skeleton->joints.size()) + " joints");
+  }
+  const PositionMatrix a = joint_positions(*original.skeleton, original.channels);
+  const PositionMatrix b = joint_positions(*decoded.skeleton, decoded.channels);
+  Comparison result;
+  result.frames = std::min(a.rows(), b.rows());
+  result.missing_frames = std::max(a.rows(), b.rows()) - result.frames;
+  result.errors = position_errors(a, b);
+  result.d_percent = d_percent(a, b, result.frames);
+  result.foot_skate = foot_skate(*original.skeleton, a, b, original.frame_rate);
+  return result;
+}
+
+}  // namespace reprise
