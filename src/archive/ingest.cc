@@ -6,12 +6,12 @@
 #include <set>
 #include <utility>
 
-#include "archive/error_sketch.h"
 #include "archive/input_files.h"
 #include "archive/metadata.h"
 #include "archive/parallel.h"
 #include "archive/space_builder.h"
 #include "archive/take_identity.h"
+#include "query/error_sketch.h"
 #include "reprise/archive.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"
@@ -180,7 +180,8 @@ class Ingest {
                     {fresh.file.path.string()});
       }
       coded.record = make_record(fresh, take, assignment, fitted);
-      coded.clips.push_back(whole_take_clip(take, coded.record.motion.size()));
+      coded.clips.push_back(
+          whole_take_clip(fresh.outline.content, take.frames(), coded.record.motion.size()));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
       coded.rejected = rejection(fresh.file, error);
@@ -196,8 +197,6 @@ class Ingest {
     record.error_quantiles = sketch_distances(fitted.distances);
     record.proportions = assignment.proportions;
     record.space = assignment.space_id;
-    record.content = fresh.outline.content;
-    record.layout = layout_bytes(take);
     TakeInfo& info = record.info;
     info.name = fresh.file.name;
     info.subject = subject_of(fresh.file, take);
@@ -206,12 +205,8 @@ class Ingest {
       info.description = row->description;
       info.tags = row->tags;
     }
-    info.format = take.skeleton->format;
     info.frames = take.frames();
-    info.frame_rate = take.frame_rate;
-    info.frame_rate_assumed = take.frame_rate_assumed;
     info.fidelity = options_.fidelity;
-    info.raw_bytes = 4 * static_cast<std::uint64_t>(take.channels.size());
     info.text_bytes = fresh.outline.text_bytes;
     info.error_mm = fitted.errors;
     info.source_digest = fresh.outline.source_digest;

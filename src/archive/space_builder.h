@@ -34,14 +34,24 @@ class SpaceBuilder {
       std::vector<std::size_t>;  // indices of takes with one skeleton structure, by name
 
   void build_for_skeleton(const Members& members);
-  std::shared_ptr<const CodedSpace> existing_space(std::int64_t skeleton, std::int64_t& id);
-  void make_space(std::int64_t skeleton, const Members& members);
-  void extend_where_needed(const Members& members, const CodedSpace& base, std::int64_t base_id);
+  std::int64_t skeleton_of(const Members& members);
+  void assign_proportions(std::int64_t skeleton, const Members& members);
+  void assign_space(std::int64_t id, const Members& members);
+  void extend_where_needed(std::int64_t skeleton, const Members& members);
+  MarkerMoments moments_of(const MarkerLayout& layout, const Members& members);
+  SpaceRecord train(std::int64_t skeleton, const Members& members);
+  /// What the coder learns from some of the `training` takes, where that pays for `all` takes.
+  std::vector<std::uint8_t> train_prior(const CoefficientSpace& space, const Members& training,
+                                        std::size_t all);
+  std::vector<std::uint8_t> cheaper_prior(const KnotScales& scales, double takes_each) const;
+  void keep_fits(std::int64_t space);
 
   ArchiveStore& store_;
   const IngestOptions& options_;
   const std::vector<FreshTake>* takes_ = nullptr;
+  std::function<void(const std::string&)> tick_;
   std::map<std::string, SpaceAssignment> assignments_;
+  std::map<std::size_t, FittedTake> fits_;  // made on the way to a prior
 };
 
 }  // namespace reprise

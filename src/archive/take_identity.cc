@@ -53,6 +53,7 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   outline.evidence = layout_evidence(take);
   outline.frames = take.frames();
   outline.frame_rate = take.frame_rate;
+  outline.frame_rate_assumed = take.frame_rate_assumed;
   outline.layout = take.layout;
   return outline;
 }

@@ -20,6 +20,7 @@ struct TakeOutline {
   LayoutEvidence evidence;
   long frames = 0;
   double frame_rate = 0;
+  bool frame_rate_assumed = false;
   TakeLayout layout;
 };
 

@@ -1,5 +1,5 @@
-// The one door to the archive file: typed records in, typed records out. Nothing outside this folder knows
-// SQL, and nothing in it knows what is in a blob.
+// The one door to the archive file: typed records in, typed records out. Nothing outside this
+// folder knows SQL, and nothing in it knows what is in a blob.
 #pragma once
 
 #include <array>
@@ -29,13 +29,17 @@ struct SkeletonRecord {
   std::string root;
 };
 
-/// One actor's offsets and lengths: the source text of a skeleton.
+/// What the files of takes say besides their numbers: one actor's offsets and lengths (the source
+/// text of the skeleton), frame rate and headers. Takes share it where all of it is equal.
 struct ProportionsRecord {
   std::int64_t id = 0;
   std::int64_t skeleton = 0;
-  Digest digest{};  ///< of source_text, asf_name and unit
-  std::string asf_name;
+  Digest identity{};  ///< of everything below; filled in by the store
   double millimetres_per_unit = 10;
+  double frame_rate = 0;
+  bool frame_rate_assumed = false;
+  std::string asf_name;
+  Bytes layout;  ///< opaque here
   std::string source_text;
 };
 
@@ -48,12 +52,12 @@ struct SpaceRecord {
 };
 
 struct TakeRecord {
-  TakeInfo info;  ///< id, skeleton and payload_bytes are filled in by the store
+  TakeInfo
+      info;  ///< id, skeleton, format, rates and raw and payload bytes are filled in by the store
   std::int64_t proportions = 0;
   std::int64_t space = 0;
-  Digest content{};        ///< of the source's structure and channel values: equal content, equal digest
-  Bytes error_quantiles;   ///< sketch of the distances, opaque here
-  Bytes motion;            ///< the coded take
+  Bytes error_quantiles;  ///< sketch of the distances, opaque here
+  Bytes motion;           ///< the coded take
   /// Bytes of `motion` by what they are spent on; they add up to motion.size().
   std::vector<std::pair<std::string, std::uint64_t>> spent;
 };
@@ -72,18 +76,19 @@ struct ClipRecord {
 
 class ArchiveStore {
  public:
-  /// Throws Error: failed (cannot be opened), damaged, newer_version. Never writes, but for rolling back
-  /// a transaction that a dead writer left.
+  /// Throws Error: failed (cannot be opened), damaged, newer_version. Never writes, but for rolling
+  /// back a transaction that a dead writer left.
   static ArchiveStore open_for_reading(const std::filesystem::path& path);
-  /// Creates the file with the first commit if it is not there. Throws Error (locked) at once if another
-  /// process holds it for writing.
+  /// Creates the file with the first commit if it is not there. Throws Error (locked) at once if
+  /// another process holds it for writing.
   static ArchiveStore open_for_writing(const std::filesystem::path& path);
   ~ArchiveStore();
   ArchiveStore(ArchiveStore&&) noexcept;
   ArchiveStore& operator=(ArchiveStore&&) noexcept;
 
-  // Writing: everything between begin() and commit() is stored together or not at all. Each throws Error
-  // (limit where the disk is full, failed, damaged). A store whose commit failed takes no more writes.
+  // Writing: everything between begin() and commit() is stored together or not at all. Each throws
+  // Error (limit where the disk is full, failed, damaged). A store whose commit failed takes no
+  // more writes.
   void begin();
   void commit();
   void roll_back();
@@ -91,38 +96,53 @@ class ArchiveStore {
   std::int64_t add_proportions(const ProportionsRecord& record);
   std::int64_t add_space(const SpaceRecord& record);
   std::int64_t add_take(const TakeRecord& take, std::span<const ClipRecord> clips);
-  void remove_take(std::int64_t id);  ///< with its clips; what nothing refers to any more goes with it
-  void compact();                     ///< outside a transaction
+  void remove_take(
+      std::int64_t id);  ///< with its clips; what nothing refers to any more goes with it
+  void compact();        ///< outside a transaction
 
-  // Reading. Every row that is returned has passed its digest; one that has not throws Error (damaged).
+  /// True before anything was ever stored; only the questions that say so may be asked then.
+  bool empty() const;
+
+  // Reading. Every row that is returned has passed its digest; one that has not throws Error
+  // (damaged).
   std::optional<SkeletonRecord> find_skeleton(const Digest& structure) const;
-  std::optional<ProportionsRecord> find_proportions(const Digest& digest) const;
+  /// The stored one that is equal to this one, whatever its id.
+  std::optional<std::int64_t> find_proportions(const ProportionsRecord& record) const;
   SkeletonRecord skeleton(std::int64_t id) const;
   ProportionsRecord proportions(std::int64_t id) const;
+  /// The first proportions of a skeleton: those that its spaces are made for. They stay while it
+  /// stays.
+  ProportionsRecord reference_proportions(std::int64_t skeleton) const;
   SpaceRecord space(std::int64_t id) const;
-  std::vector<std::int64_t> spaces_of_skeleton(std::int64_t skeleton) const;  ///< in order of creation
+  std::vector<std::int64_t> spaces_of_skeleton(
+      std::int64_t skeleton) const;                                    ///< in order of creation
   std::optional<TakeRecord> find_take(const std::string& name) const;  ///< without `motion`
   TakeRecord take(std::int64_t id) const;                              ///< without `motion`
   Bytes motion(std::int64_t take) const;
   std::vector<std::string> take_names_ending_in(const std::string& tail, std::size_t most) const;
   std::vector<TakeInfo> takes(const TakeFilter& filter) const;  ///< by name
-  std::vector<ClipRecord> clips(std::span<const std::int64_t> takes) const;  ///< by take name, first frame
+  std::vector<ClipRecord> clips(
+      std::span<const std::int64_t> takes) const;  ///< by take name, first frame
   std::vector<ClipRecord> clips_with_prefix(const std::string& hexadecimal) const;
   std::vector<SkeletonInfo> skeletons() const;
   std::vector<std::string> subjects() const;
-  /// All but error_mm.p99, which needs the sketches: they are handed to `sketch` take by take with the
-  /// number of distances (joints x frames) that each stands for.
+  /// All but error_mm.p99, which needs the sketches: they are handed to `sketch` take by take with
+  /// the number of distances (joints x frames) that each stands for.
   ArchiveStats stats(const std::function<void(const Bytes&, std::uint64_t)>& sketch) const;
+  /// What a take is, wherever it stands: the digest of everything that is stored of it.
+  Digest content_of(std::int64_t take) const;
+  Digest digest_of_space(std::int64_t id) const;
   Digest content_digest() const;  ///< independent of the order in which takes were added
   std::string written_by() const;
   int format_version() const;
 
-  /// Reads every page and every row; returns what is wrong, in words. Blobs are checked against their
-  /// digests but not decoded.
+  /// Reads every page and every row; returns what is wrong, in words. Blobs are checked against
+  /// their digests but not decoded.
   std::vector<Damage> check_structure() const;
 
- private:
   struct Impl;
+
+ private:
   explicit ArchiveStore(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -1,4 +1,4 @@
-#include "archive/error_sketch.h"
+#include "query/error_sketch.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,34 @@
+// Takes out takes, and gives back their space.
+#include "query/archive_impl.h"
+#include "reprise/archive.h"
+#include "reprise/error.h"
+#include "store/archive_store.h"
+
+namespace reprise {
+
+void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids) {
+  std::vector<std::string> names;
+  {
+    const Archive reader(archive);
+    for (const std::string& id : ids) names.push_back(reader.find_take(id).name);
+  }
+  ArchiveStore store = ArchiveStore::open_for_writing(archive);
+  store.begin();
+  try {
+    for (const std::string& name : names) {
+      // An ID may be given twice.
+      if (const auto take = store.find_take(name)) store.remove_take(take->info.id);
+    }
+  } catch (...) {
+    store.roll_back();
+    throw;
+  }
+  store.commit();
+}
+
+void compact(const std::filesystem::path& archive) {
+  { const Archive must_be_readable(archive); }
+  ArchiveStore::open_for_writing(archive).compact();
+}
+
+}  // namespace reprise

@@ -1,0 +1,216 @@
+#include "archive/space_builder.h"
+
+#include <algorithm>
+
+#include "archive/parallel.h"
+#include "query/stored_forms.h"
+#include "reprise/error.h"
+#include "store/digest.h"
+
+namespace reprise {
+namespace {
+
+/// Axes are learned from at most this many takes of a skeleton, evenly spread over their names, and
+/// the coder's contexts from at most this many frames.
+constexpr std::size_t most_training_takes = 1000;
+constexpr long most_context_frames = 60000;
+
+std::vector<std::size_t> spread(const std::vector<std::size_t>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(all[i * all.size() / most]);
+  return some;
+}
+
+SkeletonRecord skeleton_record(const Skeleton& skeleton, const Digest& structure) {
+  SkeletonRecord record;
+  record.structure = structure;
+  record.format = skeleton.format;
+  record.joints = skeleton.joints.size();
+  record.channels = static_cast<std::size_t>(skeleton.channel_count);
+  record.root = skeleton.joints.front().name;
+  return record;
+}
+
+}  // namespace
+
+std::map<std::string, SpaceAssignment> SpaceBuilder::build(
+    const std::vector<FreshTake>& takes, const std::function<void(const std::string&)>& tick) {
+  takes_ = &takes;
+  tick_ = tick;
+  if (takes.empty()) return {};
+  std::map<std::string, Members> by_structure;
+  std::vector<std::string> order;
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    const std::string structure = structure_bytes(*takes[i].outline.skeleton);
+    if (!by_structure.contains(structure)) order.push_back(structure);
+    by_structure[structure].push_back(i);
+  }
+  store_.begin();
+  for (const std::string& structure : order) build_for_skeleton(by_structure.at(structure));
+  store_.commit();
+  return std::move(assignments_);
+}
+
+std::int64_t SpaceBuilder::skeleton_of(const Members& members) {
+  const Skeleton& first = *(*takes_)[members.front()].outline.skeleton;
+  const Digest structure = digest_of(structure_bytes(first));
+  const auto known = store_.find_skeleton(structure);
+  return known ? known->id : store_.add_skeleton(skeleton_record(first, structure));
+}
+
+void SpaceBuilder::assign_proportions(std::int64_t skeleton, const Members& members) {
+  for (const std::size_t i : members) {
+    const TakeOutline& outline = (*takes_)[i].outline;
+    ProportionsRecord record = proportions_record(*outline.skeleton, outline.layout,
+                                                  outline.frame_rate, outline.frame_rate_assumed);
+    record.skeleton = skeleton;
+    const auto known = store_.find_proportions(record);
+    assignments_[(*takes_)[i].file.name].proportions =
+        known ? *known : store_.add_proportions(record);
+  }
+}
+
+void SpaceBuilder::build_for_skeleton(const Members& members) {
+  const std::int64_t skeleton = skeleton_of(members);
+  assign_proportions(skeleton, members);
+  const std::vector<std::int64_t> spaces = store_.spaces_of_skeleton(skeleton);
+  if (spaces.empty()) {
+    const SpaceRecord record = train(skeleton, members);
+    const std::int64_t id = store_.add_space(record);
+    assign_space(id, members);
+    keep_fits(id);
+  } else {
+    assign_space(spaces.back(), members);
+  }
+  extend_where_needed(skeleton, members);
+}
+
+void SpaceBuilder::assign_space(std::int64_t id, const Members& members) {
+  const auto space = std::make_shared<const CodedSpace>(read_space(store_, id));
+  for (const std::size_t i : members) {
+    SpaceAssignment& assignment = assignments_[(*takes_)[i].file.name];
+    assignment.space_id = id;
+    assignment.space = space;
+  }
+}
+
+MarkerMoments SpaceBuilder::moments_of(const MarkerLayout& layout, const Members& members) {
+  MarkerMoments moments;
+  produce_in_order(
+      members.size(), options_.jobs,
+      [&](std::size_t m) {
+        MarkerMoments own;
+        own.add(sampled_markers(layout, read_again((*takes_)[members[m]], options_.read)));
+        return own;
+      },
+      [&](std::size_t, MarkerMoments own) { moments.add(own); });
+  return moments;
+}
+
+SpaceRecord SpaceBuilder::train(std::int64_t skeleton, const Members& members) {
+  const double mean_mm = options_.fidelity.limit_mm;
+  const Skeleton reference = reference_skeleton(store_, skeleton);
+  const Members training = spread(members, most_training_takes);
+  LayoutEvidence evidence;
+  for (const std::size_t i : training) evidence.add((*takes_)[i].outline.evidence);
+  MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
+  const MarkerMoments moments = moments_of(layout, training);
+  const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
+  const auto bytes = encode_space(space, 0, space_precision(space, mean_mm));
+  // From here on everything is as the decoder sees it.
+  const CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
+  const auto prior = train_prior(decoded, training, members.size());
+  return {0, skeleton, 0, pack_space(bytes, prior)};
+}
+
+std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& space,
+                                                    const Members& training, std::size_t all) {
+  long frames = 0;
+  for (const std::size_t i : training) frames += (*takes_)[i].outline.frames;
+  const double part =
+      std::min(1.0, static_cast<double>(most_context_frames) / static_cast<double>(frames));
+  const Members chosen = spread(
+      training, std::max<std::size_t>(
+                    1, static_cast<std::size_t>(part * static_cast<double>(training.size()))));
+  struct Fit {
+    TakeKnots knots;
+    FittedTake fitted;
+  };
+  KnotScales scales;
+  fits_.clear();
+  produce_in_order(
+      chosen.size(), options_.jobs,
+      [&](std::size_t c) {
+        const Take take = read_again((*takes_)[chosen[c]], options_.read);
+        const MarkedTake marked = mark_take(space.layout, take);
+        return Fit{take_knots(space, {take.frames(), take.frame_rate}, marked.root.tumbles,
+                              to_trajectories(space, take, marked)),
+                   fit_take(space, take, options_.fidelity.limit_mm)};
+      },
+      [&](std::size_t c, Fit fit) {
+        scales.add(fit.knots.shape, fit.knots.knots);
+        if (fit.fitted.kept) fits_.emplace(chosen[c], std::move(fit.fitted));
+        tick_((*takes_)[chosen[c]].file.name);
+      });
+  scales.settle();
+  return cheaper_prior(scales, static_cast<double>(all) / static_cast<double>(chosen.size()));
+}
+
+std::vector<std::uint8_t> SpaceBuilder::cheaper_prior(const KnotScales& scales,
+                                                      double takes_each) const {
+  KnotModel learned(scales);
+  for (const auto& [i, fitted] : fits_) learned.learn(fitted.shape, fitted.motion.knots);
+  const auto bits = [&](const std::vector<std::uint8_t>& prior) {
+    KnotModel start;
+    start.load_prior(prior);
+    double sum = 0;
+    for (const auto& [i, fitted] : fits_)
+      sum += KnotModel(start).learn(fitted.shape, fitted.motion.knots);
+    return takes_each * sum + 8.0 * static_cast<double>(prior.size());
+  };
+  auto with = learned.prior(true), without = learned.prior(false);
+  return bits(with) < bits(without) ? with : without;
+}
+
+void SpaceBuilder::keep_fits(std::int64_t space) {
+  for (auto& [i, fitted] : fits_) {
+    SpaceAssignment& assignment = assignments_[(*takes_)[i].file.name];
+    if (assignment.space_id == space) assignment.fitted = std::move(fitted);
+  }
+  fits_.clear();
+}
+
+void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& members) {
+  const std::int64_t base_id = assignments_.at((*takes_)[members.front()].file.name).space_id;
+  const auto base = assignments_.at((*takes_)[members.front()].file.name).space;
+  const double most = FitConstants::most_residual * options_.fidelity.limit_mm;
+  Members unfit;
+  produce_in_order(
+      members.size(), options_.jobs,
+      [&](std::size_t m) {
+        const FreshTake& fresh = (*takes_)[members[m]];
+        if (assignments_.at(fresh.file.name).fitted) return false;
+        const Take take = read_again(fresh, options_.read);
+        return residual_mm(base->space, sampled_markers(base->space.layout, take)) > most;
+      },
+      [&](std::size_t m, bool unfits) {
+        if (unfits) unfit.push_back(members[m]);
+      });
+  if (unfit.empty()) return;
+  const double mean_mm = options_.fidelity.limit_mm;
+  const MarkerMoments moments = moments_of(base->space.layout, unfit);
+  const CoefficientSpace space = extend_space(base->space, moments, mean_mm);
+  const int known = static_cast<int>(base->space.axes.cols());
+  if (space.axes.cols() == known) return;
+  const auto bytes = encode_space(space, known, space_precision(space, mean_mm));
+  SpaceRecord record{0, skeleton, base_id, {}};
+  record.data =
+      pack_space(bytes, train_prior(decode_space(bytes, base->space.layout.reference, &base->space),
+                                    unfit, unfit.size()));
+  const std::int64_t id = store_.add_space(record);
+  assign_space(id, unfit);
+  keep_fits(id);
+}
+
+}  // namespace reprise

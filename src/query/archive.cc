@@ -1,0 +1,169 @@
+// An archive opened for reading.
+#include "reprise/archive.h"
+
+#include <algorithm>
+#include <map>
+
+#include "quant/take_codec.h"
+#include "query/archive_impl.h"
+#include "query/error_sketch.h"
+#include "query/stored_forms.h"
+#include "reprise/error.h"
+#include "store/digest.h"
+
+namespace reprise {
+namespace {
+
+constexpr std::size_t least_id_digits = 4;
+constexpr std::size_t id_digits = 16;
+/// How many candidates an error about an ambiguous ID names.
+constexpr std::size_t most_candidates = 10;
+
+std::string hexadecimal_id(std::uint64_t address) {
+  Bytes bytes;
+  for (int shift = 56; shift >= 0; shift -= 8)
+    bytes.push_back(static_cast<std::uint8_t>(address >> shift));
+  return hexadecimal(bytes);
+}
+
+ClipInfo clip_info(const ClipRecord& record, const TakeInfo& take) {
+  ClipInfo info;
+  info.id = hexadecimal_id(record.id);
+  info.take = take.name;
+  info.kind = record.kind;
+  info.group = record.group;
+  info.first_frame = record.first_frame;
+  info.frames = record.frames;
+  info.start = static_cast<double>(record.first_frame) / take.frame_rate;
+  info.end = static_cast<double>(record.first_frame + record.frames) / take.frame_rate;
+  if (record.kind == ClipKind::repeated) info.primary = hexadecimal_id(record.primary);
+  info.bytes = record.bytes;
+  return info;
+}
+
+bool may_be_clip_id(const std::string& id) {
+  return id.size() >= least_id_digits && id.size() <= id_digits &&
+         id.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+}
+
+std::string candidate_list(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most_candidates); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  return names.size() > most_candidates ? list + ", ..." : list;
+}
+
+[[noreturn]] void throw_ambiguous(const std::string& id, const std::vector<std::string>& names) {
+  throw Error(ErrorCode::not_found, "the ID '" + id + "' is ambiguous: " + candidate_list(names),
+              {}, "give more of it");
+}
+
+}  // namespace
+
+Archive::Archive(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+Archive::~Archive() = default;
+Archive::Archive(Archive&&) noexcept = default;
+Archive& Archive::operator=(Archive&&) noexcept = default;
+
+std::vector<TakeInfo> Archive::takes(const TakeFilter& filter) const {
+  return impl_->store.takes(filter);
+}
+
+std::vector<ClipInfo> Archive::clips(const TakeFilter& filter) const {
+  std::vector<ClipInfo> result;
+  for (const TakeInfo& take : takes(filter)) {
+    const std::int64_t ids[] = {take.id};
+    for (const ClipRecord& clip : impl_->store.clips(ids)) {
+      if (!filter.kind || clip.kind == *filter.kind) result.push_back(clip_info(clip, take));
+    }
+  }
+  return result;
+}
+
+std::vector<SkeletonInfo> Archive::skeletons() const { return impl_->store.skeletons(); }
+
+std::vector<std::string> Archive::subjects() const { return impl_->store.subjects(); }
+
+ArchiveStats Archive::stats() const {
+  DistanceSketches sketches;
+  ArchiveStats stats = impl_->store.stats(
+      [&](const Bytes& sketch, std::uint64_t distances) { sketches.add(sketch, distances); });
+  stats.error_mm.p99 = sketches.quantile(0.99);
+  return stats;
+}
+
+ArchiveInfo Archive::info() const {
+  ArchiveInfo info;
+  info.content_digest = hexadecimal(impl_->store.content_digest());
+  info.format_version = impl_->store.format_version();
+  info.written_by = impl_->store.written_by();
+  info.stats = stats();
+  return info;
+}
+
+TakeInfo Archive::find_take(const std::string& id) const {
+  if (const auto exact = impl_->store.find_take(id)) return exact->info;
+  const std::vector<std::string> names = impl_->store.take_names_ending_in(id, most_candidates + 1);
+  if (names.size() > 1) throw_ambiguous(id, names);
+  if (names.empty()) throw Error(ErrorCode::not_found, "there is no take '" + id + "'");
+  return impl_->store.find_take(names[0])->info;
+}
+
+std::vector<ClipInfo> Archive::find_clips(const std::string& id) const {
+  std::vector<ClipInfo> clips;
+  if (!may_be_clip_id(id)) return clips;
+  std::string lower = id;
+  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'F' ? c + 32 : c);
+  for (const ClipRecord& record : impl_->store.clips_with_prefix(lower)) {
+    clips.push_back(clip_info(record, impl_->store.take(record.take).info));
+  }
+  const bool one =
+      std::ranges::all_of(clips, [&](const ClipInfo& c) { return c.id == clips[0].id; });
+  if (one) return clips;
+  std::vector<std::string> ids;
+  for (const ClipInfo& clip : clips) {
+    if (ids.empty() || ids.back() != clip.id) ids.push_back(clip.id);
+  }
+  throw_ambiguous(id, ids);
+}
+
+Archive::Selection Archive::find(const std::string& id) const {
+  try {
+    TakeInfo take = find_take(id);
+    const long frames = take.frames;
+    return {std::move(take), {0, frames}, std::nullopt};
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::not_found || !may_be_clip_id(id)) throw;
+    const std::vector<ClipInfo> clips = find_clips(id);
+    if (clips.empty()) throw Error(ErrorCode::not_found, "there is no take or clip '" + id + "'");
+    const ClipInfo& clip = clips[0];
+    return {find_take(clip.take), {clip.first_frame, clip.first_frame + clip.frames}, clip};
+  }
+}
+
+Take Archive::extract(const TakeInfo& info) const {
+  const ArchiveStore& store = impl_->store;
+  const TakeRecord record = store.take(info.id);
+  Take take = empty_take(impl_->proportions(record.proportions), record.info.format);
+  take.name = record.info.name;
+  const CodedSpace& space = impl_->space(record.space);
+  take.channels = decode_take(space, *take.skeleton, {record.info.frames, record.info.frame_rate},
+                              store.motion(info.id));
+  return take;
+}
+
+Take Archive::extract(const TakeInfo& info, FrameRange frames) const {
+  if (frames.begin < 0 || frames.begin >= frames.end || frames.end > info.frames) {
+    throw Error(ErrorCode::usage,
+                "frames " + std::to_string(frames.begin) + " to " + std::to_string(frames.end) +
+                    " are not in the take, which has " + std::to_string(info.frames));
+  }
+  Take take = extract(info);
+  const ChannelMatrix part = take.channels.middleRows(frames.begin, frames.end - frames.begin);
+  take.channels = part;
+  take.layout.first_frame_number += frames.begin;
+  return take;
+}
+
+}  // namespace reprise

@@ -1,0 +1,25 @@
+// Skeletons, layouts and spaces as they are stored, and back.
+#pragma once
+
+#include <memory>
+
+#include "quant/space_codec.h"
+#include "reprise/model/take.h"
+#include "store/archive_store.h"
+
+namespace reprise {
+
+/// What a take's files say besides numbers; its skeleton row is left open.
+ProportionsRecord proportions_record(const Skeleton& skeleton, const TakeLayout& layout,
+                                     double frame_rate, bool frame_rate_assumed);
+
+/// A take without frames, as its proportions say. Throws Error (damaged).
+Take empty_take(const ProportionsRecord& record, MotionFormat format);
+
+/// The skeleton that the spaces of a stored skeleton are made for.
+Skeleton reference_skeleton(const ArchiveStore& store, std::int64_t skeleton);
+
+/// A space with all that it extends. Throws Error (damaged).
+CodedSpace read_space(const ArchiveStore& store, std::int64_t id);
+
+}  // namespace reprise

@@ -1,0 +1,162 @@
+// Opening and closing an archive file.
+#include "store/archive_store.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "store/page_checksum_vfs.h"
+#include "store/schema.h"
+#include "store/store_impl.h"
+
+namespace reprise {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void throw_damaged(const fs::path& path, const std::string& why) {
+  throw Error(ErrorCode::damaged, why, {path.string()});
+}
+
+std::int64_t pragma(const Database& database, const std::string& name) {
+  Statement statement(database, "PRAGMA " + name);
+  return statement.step() ? statement.integer() : 0;
+}
+
+/// The tables must be exactly those of the schema: nothing in the file is to run code of its own.
+void check_schema(const Database& database) {
+  std::vector<std::string> expected, found;
+  std::istringstream lines(schema_text());
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == ';') line.pop_back();
+    expected.push_back(line);
+  }
+  Statement statement(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL");
+  while (statement.step()) found.push_back(statement.text());
+  std::ranges::sort(expected);
+  std::ranges::sort(found);
+  if (expected != found)
+    throw_damaged(database.path(), "the tables are not those of a Reprise archive");
+}
+
+/// Version, identity and size of an archive that was opened.
+void check_identity(Database& database) {
+  const fs::path& path = database.path();
+  database.run("BEGIN");
+  Statement(database, "SELECT count(*) FROM sqlite_schema").step();
+  if (pragma(database, "application_id") != application_id) {
+    throw_damaged(path, "this is not a Reprise archive");
+  }
+  const std::int64_t version = pragma(database, "user_version");
+  if (version / 1000 > format_version / 1000) {
+    throw Error(ErrorCode::newer_version,
+                "the archive has format " + std::to_string(version / 1000) + "." +
+                    std::to_string(version % 1000) + "; this program reads format " +
+                    std::to_string(format_version / 1000),
+                {path.string()}, "a newer version of the program reads it");
+  }
+  const auto size = static_cast<std::int64_t>(fs::file_size(path));
+  if (size != pragma(database, "page_count") * pragma(database, "page_size")) {
+    throw_damaged(path, "the archive is damaged: the file is " + std::to_string(size) +
+                            " bytes long, which is not what it says");
+  }
+  check_schema(database);
+  database.run("COMMIT");
+}
+
+void create_tables(Database& database) {
+  database.run("PRAGMA application_id=" + std::to_string(application_id) +
+               "; PRAGMA user_version=" + std::to_string(format_version) + ";");
+  database.run(schema_text());
+  Statement(database, "INSERT INTO meta(key, value) VALUES('content', ?)").bind(Digest{}).run();
+  Statement(database, "INSERT INTO meta(key, value) VALUES('written_by', ?)")
+      .bind(std::string_view("reprise " REPRISE_VERSION))
+      .run();
+}
+
+}  // namespace
+
+ArchiveStore::ArchiveStore(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ArchiveStore::~ArchiveStore() = default;
+ArchiveStore::ArchiveStore(ArchiveStore&&) noexcept = default;
+ArchiveStore& ArchiveStore::operator=(ArchiveStore&&) noexcept = default;
+
+ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (error) {
+    throw Error(
+        ErrorCode::failed,
+        fs::is_directory(path) ? "this is a folder, not an archive" : "there is no such archive",
+        {path.string()});
+  }
+  if (size == 0) {
+    throw_damaged(path, "the archive is empty; the ingest that was to fill it never got so far");
+  }
+  fs::path journal = path;
+  journal += "-journal";
+  if (fs::exists(journal, error) && fs::file_size(journal, error) > 0) {
+    try {
+      // A writer that died left this: opening for writing takes back what it had not finished.
+      const Database recovery(path, Database::Mode::write);
+      Statement(recovery, "SELECT count(*) FROM sqlite_schema").step();
+    } catch (const Error& cannot) {
+      if (cannot.code() == ErrorCode::damaged) throw;
+    }
+  }
+  auto impl = std::make_unique<Impl>();
+  impl->database.emplace(path, Database::Mode::read);
+  check_identity(*impl->database);
+  return ArchiveStore(std::move(impl));
+}
+
+ArchiveStore ArchiveStore::open_for_writing(const fs::path& path) {
+  auto impl = std::make_unique<Impl>();
+  impl->lock.emplace(path);
+  impl->database.emplace(path, Database::Mode::write);
+  impl->writing = true;
+  impl->database->run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL;");
+  Statement tables(*impl->database, "SELECT count(*) FROM sqlite_schema");
+  tables.step();
+  if (tables.integer() > 0 || fs::file_size(path) > 0) check_identity(*impl->database);
+  return ArchiveStore(std::move(impl));
+}
+
+void ArchiveStore::begin() {
+  if (impl_->broken) throw Error(ErrorCode::failed, "an earlier write to the archive failed");
+  const bool fresh = std::filesystem::file_size(impl_->database->path()) == 0;
+  if (fresh) {
+    // The page layout must be set before the first transaction writes a page.
+    int reserved = page_checksum_bytes;
+    impl_->database->run("PRAGMA auto_vacuum=NONE; PRAGMA page_size=" + std::to_string(page_size));
+    sqlite3_file_control(impl_->database->handle(), "main", SQLITE_FCNTL_RESERVE_BYTES, &reserved);
+  }
+  impl_->database->run("BEGIN IMMEDIATE");
+  impl_->in_transaction = true;
+  if (fresh) create_tables(*impl_->database);
+}
+
+void ArchiveStore::commit() {
+  impl_->require_transaction();
+  try {
+    impl_->database->run("COMMIT");
+  } catch (...) {
+    impl_->broken = true;
+    roll_back();
+    throw;
+  }
+  impl_->in_transaction = false;
+}
+
+void ArchiveStore::roll_back() {
+  impl_->in_transaction = false;
+  // A failed write may have rolled back already.
+  if (sqlite3_get_autocommit(impl_->database->handle()) == 0) impl_->database->run("ROLLBACK");
+}
+
+void ArchiveStore::compact() { impl_->database->run("VACUUM"); }
+
+int ArchiveStore::format_version() const {
+  return static_cast<int>(pragma(*impl_->database, "user_version"));
+}
+
+}  // namespace reprise

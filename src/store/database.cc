@@ -1,0 +1,140 @@
+#include "store/database.h"
+
+#include "store/page_checksum_vfs.h"
+
+namespace reprise {
+namespace {
+
+/// How long a reader waits for a writer's commit, and a commit for readers (ms).
+constexpr int busy_timeout_ms = 10000;
+/// No row of ours is larger (bytes): what a hostile file may make SQLite allocate.
+constexpr int most_row_bytes = 1 << 30;
+
+ErrorCode code_of(int result) {
+  switch (result & 0xff) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+    case SQLITE_FORMAT:
+      return ErrorCode::damaged;
+    case SQLITE_FULL:
+    case SQLITE_NOMEM:
+    case SQLITE_TOOBIG:
+      return ErrorCode::limit;
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return ErrorCode::locked;
+    case SQLITE_IOERR:
+      return result == SQLITE_IOERR_DATA || result == SQLITE_IOERR_SHORT_READ ||
+                     result == SQLITE_IOERR_CORRUPTFS
+                 ? ErrorCode::damaged
+                 : ErrorCode::failed;
+    default:
+      return ErrorCode::failed;
+  }
+}
+
+std::string reason_of(int result, const std::string& message) {
+  switch (code_of(result)) {
+    case ErrorCode::damaged:
+      if ((result & 0xff) == SQLITE_NOTADB) return "this is not a Reprise archive";
+      return "the archive is damaged: " + (result == SQLITE_IOERR_DATA
+                                               ? std::string("a page is not as it was written")
+                                               : message);
+    case ErrorCode::limit:
+      return (result & 0xff) == SQLITE_FULL ? "the disk is full" : "out of memory";
+    case ErrorCode::locked:
+      return "the archive is in use by another process";
+    default:
+      return (result & 0xff) == SQLITE_CANTOPEN ? "the archive cannot be opened" : message;
+  }
+}
+
+}  // namespace
+
+Database::Database(const std::filesystem::path& path, Mode mode) : path_(path) {
+  sqlite3* raw = nullptr;
+  const int flags =
+      mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int result = sqlite3_open_v2(
+      path.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, page_checksum_vfs());
+  handle_.reset(raw);
+  if (result != SQLITE_OK) fail(result);
+  sqlite3_busy_timeout(raw, busy_timeout_ms);
+  // What SQLite's own documentation advises for files from anywhere.
+  sqlite3_db_config(raw, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, most_row_bytes);
+  run("PRAGMA cell_size_check=ON; PRAGMA mmap_size=0; PRAGMA foreign_keys=ON; PRAGMA "
+      "temp_store=MEMORY;");
+}
+
+void Database::run(const std::string& sql) {
+  const int result = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+  if (result != SQLITE_OK) fail(result);
+}
+
+void Database::fail(int code) const {
+  const std::string message = handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code);
+  throw Error(code_of(code), reason_of(code, message), {path_.string()});
+}
+
+Statement::Statement(const Database& database, std::string_view sql) : database_(database) {
+  sqlite3_stmt* raw = nullptr;
+  check(sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()), &raw,
+                           nullptr));
+  statement_.reset(raw);
+}
+
+void Statement::check(int code) const {
+  if (code != SQLITE_OK) database_.fail(code);
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  check(sqlite3_bind_int64(statement_.get(), ++parameter_, value));
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  check(sqlite3_bind_double(statement_.get(), ++parameter_, value));
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view text) {
+  check(sqlite3_bind_text64(statement_.get(), ++parameter_, text.data() ? text.data() : "",
+                            text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+  return *this;
+}
+
+Statement& Statement::bind(std::span<const std::uint8_t> bytes) {
+  check(bytes.empty() ? sqlite3_bind_zeroblob(statement_.get(), ++parameter_, 0)
+                      : sqlite3_bind_blob64(statement_.get(), ++parameter_, bytes.data(),
+                                            bytes.size(), SQLITE_TRANSIENT));
+  return *this;
+}
+
+bool Statement::step() {
+  column_ = 0;
+  const int result = sqlite3_step(statement_.get());
+  if (result == SQLITE_ROW) return true;
+  if (result != SQLITE_DONE) database_.fail(result);
+  return false;
+}
+
+std::int64_t Statement::integer() { return sqlite3_column_int64(statement_.get(), column_++); }
+
+double Statement::real() { return sqlite3_column_double(statement_.get(), column_++); }
+
+std::string Statement::text() {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column_));
+  const int size = sqlite3_column_bytes(statement_.get(), column_++);
+  return text ? std::string(text, static_cast<std::size_t>(size)) : std::string();
+}
+
+Bytes Statement::bytes() {
+  const auto* data =
+      static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column_));
+  const int size = sqlite3_column_bytes(statement_.get(), column_++);
+  return data ? Bytes(data, data + size) : Bytes();
+}
+
+}  // namespace reprise

@@ -1,0 +1,74 @@
+// SQLite with destructors: a connection, and statements on it. Errors are Error values of the right
+// kind.
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "reprise/error.h"
+#include "store/archive_store.h"
+
+namespace reprise {
+
+class Database {
+ public:
+  enum class Mode { read, write };
+  Database(const std::filesystem::path& path, Mode mode);
+
+  /// Runs statements that return nothing of interest.
+  void run(const std::string& sql);
+  std::int64_t last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
+  std::int64_t changes() const { return sqlite3_changes64(handle_.get()); }
+  sqlite3* handle() const { return handle_.get(); }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Turns a result code into an Error.
+  [[noreturn]] void fail(int code) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// One statement; parameters are bound in order, columns read in order.
+class Statement {
+ public:
+  Statement(const Database& database, std::string_view sql);
+
+  Statement& bind(std::int64_t value);
+  Statement& bind(double value);
+  Statement& bind(std::string_view text);
+  Statement& bind(std::span<const std::uint8_t> bytes);
+
+  /// True if there is a row.
+  bool step();
+  /// For statements without rows.
+  void run() { step(); }
+
+  std::int64_t integer();
+  double real();
+  std::string text();
+  Bytes bytes();
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+  void check(int code) const;
+
+  const Database& database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  int parameter_ = 0;
+  int column_ = 0;
+};
+
+}  // namespace reprise

@@ -1,0 +1,34 @@
+// Names of the values that archives hold as numbers.
+#include "reprise/archive.h"
+
+namespace reprise {
+
+std::string tier_name(FidelityTier tier) {
+  switch (tier) {
+    case FidelityTier::preview:
+      return "preview";
+    case FidelityTier::standard:
+      return "standard";
+    case FidelityTier::fine:
+      return "fine";
+    case FidelityTier::exact:
+      return "exact";
+    case FidelityTier::bound:
+      return "bound";
+  }
+  return "unknown";
+}
+
+std::string clip_kind_name(ClipKind kind) {
+  switch (kind) {
+    case ClipKind::primary:
+      return "primary";
+    case ClipKind::repeated:
+      return "repeated";
+    case ClipKind::unique:
+      return "unique";
+  }
+  return "unknown";
+}
+
+}  // namespace reprise

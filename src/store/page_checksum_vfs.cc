@@ -1,0 +1,163 @@
+#include "store/page_checksum_vfs.h"
+
+#include <sqlite3.h>
+#include <xxhash.h>
+
+#include <cstring>
+#include <mutex>
+#include <vector>
+
+namespace reprise {
+namespace {
+
+constexpr int least_page = 512;
+constexpr const char* vfs_name = "reprise-page-checksum";
+
+/// A file of ours; the real one lies behind it in the same allocation.
+struct CheckedFile {
+  sqlite3_file base;
+  bool is_archive;
+  sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }
+};
+
+CheckedFile* checked(sqlite3_file* file) { return reinterpret_cast<CheckedFile*>(file); }
+sqlite3_file* real(sqlite3_file* file) { return checked(file)->real(); }
+sqlite3_vfs* real(sqlite3_vfs* vfs) { return static_cast<sqlite3_vfs*>(vfs->pAppData); }
+
+/// SQLite reads and writes whole pages, but for a look at the file's header.
+bool is_page(sqlite3_file* file, int size, sqlite3_int64 offset) {
+  return checked(file)->is_archive && size >= least_page && (size & (size - 1)) == 0 &&
+         offset % size == 0;
+}
+
+std::uint64_t number_of(int size, sqlite3_int64 offset) {
+  return static_cast<std::uint64_t>(offset / size) + 1;
+}
+
+int close_file(sqlite3_file* file) { return real(file)->pMethods->xClose(real(file)); }
+
+int read_file(sqlite3_file* file, void* data, int size, sqlite3_int64 offset) {
+  const int result = real(file)->pMethods->xRead(real(file), data, size, offset);
+  if (result != SQLITE_OK || !is_page(file, size, offset)) return result;
+  const std::span<const std::uint8_t> page(static_cast<const std::uint8_t*>(data),
+                                           static_cast<std::size_t>(size));
+  return page_is_whole(page, number_of(size, offset)) ? SQLITE_OK : SQLITE_IOERR_DATA;
+}
+
+int write_file(sqlite3_file* file, const void* data, int size, sqlite3_int64 offset) {
+  if (!is_page(file, size, offset)) {
+    return real(file)->pMethods->xWrite(real(file), data, size, offset);
+  }
+  std::vector<std::uint8_t> page(static_cast<std::size_t>(size));
+  std::memcpy(page.data(), data, page.size());
+  const std::uint64_t checksum = page_checksum(page, number_of(size, offset));
+  for (std::size_t b = 0; b < page_checksum_bytes; ++b) {
+    page[page.size() - page_checksum_bytes + b] = static_cast<std::uint8_t>(checksum >> (8 * b));
+  }
+  return real(file)->pMethods->xWrite(real(file), page.data(), size, offset);
+}
+
+int truncate_file(sqlite3_file* f, sqlite3_int64 size) {
+  return real(f)->pMethods->xTruncate(real(f), size);
+}
+int sync_file(sqlite3_file* f, int flags) { return real(f)->pMethods->xSync(real(f), flags); }
+int size_of_file(sqlite3_file* f, sqlite3_int64* size) {
+  return real(f)->pMethods->xFileSize(real(f), size);
+}
+int lock_file(sqlite3_file* f, int level) { return real(f)->pMethods->xLock(real(f), level); }
+int unlock_file(sqlite3_file* f, int level) { return real(f)->pMethods->xUnlock(real(f), level); }
+int check_lock(sqlite3_file* f, int* held) {
+  return real(f)->pMethods->xCheckReservedLock(real(f), held);
+}
+int control_file(sqlite3_file* f, int op, void* arg) {
+  return real(f)->pMethods->xFileControl(real(f), op, arg);
+}
+int sector_size(sqlite3_file* f) { return real(f)->pMethods->xSectorSize(real(f)); }
+int characteristics(sqlite3_file* f) {
+  // A torn page would fail its checksum, so nothing is promised that the real file does not.
+  return real(f)->pMethods->xDeviceCharacteristics(real(f));
+}
+
+const sqlite3_io_methods methods = [] {
+  sqlite3_io_methods m{};
+  m.iVersion = 1;
+  m.xClose = close_file;
+  m.xRead = read_file;
+  m.xWrite = write_file;
+  m.xTruncate = truncate_file;
+  m.xSync = sync_file;
+  m.xFileSize = size_of_file;
+  m.xLock = lock_file;
+  m.xUnlock = unlock_file;
+  m.xCheckReservedLock = check_lock;
+  m.xFileControl = control_file;
+  m.xSectorSize = sector_size;
+  m.xDeviceCharacteristics = characteristics;
+  return m;
+}();
+
+int open_file(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int* out) {
+  file->pMethods = nullptr;
+  checked(file)->is_archive = (flags & SQLITE_OPEN_MAIN_DB) != 0;
+  const int result = real(vfs)->xOpen(real(vfs), name, real(file), flags, out);
+  if (real(file)->pMethods != nullptr) file->pMethods = &methods;
+  return result;
+}
+
+int delete_file(sqlite3_vfs* v, const char* name, int sync) {
+  return real(v)->xDelete(real(v), name, sync);
+}
+int access_file(sqlite3_vfs* v, const char* name, int flags, int* out) {
+  return real(v)->xAccess(real(v), name, flags, out);
+}
+int full_name(sqlite3_vfs* v, const char* name, int size, char* out) {
+  return real(v)->xFullPathname(real(v), name, size, out);
+}
+int randomness(sqlite3_vfs* v, int size, char* out) {
+  return real(v)->xRandomness(real(v), size, out);
+}
+int sleep_for(sqlite3_vfs* v, int microseconds) { return real(v)->xSleep(real(v), microseconds); }
+int current_time(sqlite3_vfs* v, double* out) { return real(v)->xCurrentTime(real(v), out); }
+int last_error(sqlite3_vfs* v, int size, char* out) {
+  return real(v)->xGetLastError(real(v), size, out);
+}
+
+}  // namespace
+
+std::uint64_t page_checksum(std::span<const std::uint8_t> page, std::uint64_t number) {
+  return XXH3_64bits_withSeed(page.data(), page.size() - page_checksum_bytes, number);
+}
+
+bool page_is_whole(std::span<const std::uint8_t> page, std::uint64_t number) {
+  std::uint64_t stored = 0;
+  for (std::size_t b = 0; b < page_checksum_bytes; ++b) {
+    stored |= std::uint64_t{page[page.size() - page_checksum_bytes + b]} << (8 * b);
+  }
+  return stored == page_checksum(page, number);
+}
+
+const char* page_checksum_vfs() {
+  static std::once_flag once;
+  static sqlite3_vfs vfs{};
+  std::call_once(once, [] {
+    sqlite3_initialize();
+    sqlite3_vfs* system = sqlite3_vfs_find(nullptr);
+    vfs.iVersion = 1;
+    vfs.szOsFile = static_cast<int>(sizeof(CheckedFile)) + system->szOsFile;
+    vfs.mxPathname = system->mxPathname;
+    vfs.zName = vfs_name;
+    vfs.pAppData = system;
+    vfs.xOpen = open_file;
+    vfs.xDelete = delete_file;
+    vfs.xAccess = access_file;
+    vfs.xFullPathname = full_name;
+    vfs.xRandomness = randomness;
+    vfs.xSleep = sleep_for;
+    vfs.xCurrentTime = current_time;
+    vfs.xGetLastError = last_error;
+    sqlite3_vfs_register(&vfs, 0);
+  });
+  return vfs_name;
+}
+
+}  // namespace reprise

@@ -1,0 +1,24 @@
+// A layer under SQLite that keeps a checksum at the end of every page, since SQLite itself has
+// none.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace reprise {
+
+/// Bytes at the end of each page that SQLite leaves to us.
+constexpr int page_checksum_bytes = 8;
+
+/// Registers the layer (once) and returns its name for sqlite3_open_v2. A page whose checksum is
+/// wrong is an I/O error (SQLITE_IOERR_DATA) when it is read.
+const char* page_checksum_vfs();
+
+/// The checksum of page `number` (from 1): XXH3-64 of all its bytes but the last eight, seeded with
+/// the number.
+std::uint64_t page_checksum(std::span<const std::uint8_t> page, std::uint64_t number);
+
+/// True if the last eight bytes of a page (low byte first) are its checksum.
+bool page_is_whole(std::span<const std::uint8_t> page, std::uint64_t number);
+
+}  // namespace reprise

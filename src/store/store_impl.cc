@@ -1,0 +1,175 @@
+#include "store/store_impl.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cmath>
+
+namespace reprise {
+
+WriterLock::WriterLock(const std::filesystem::path& path)
+    : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) {
+    throw Error(errno == ENOSPC ? ErrorCode::limit : ErrorCode::failed,
+                "the archive cannot be opened for writing", {path.string()});
+  }
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor_);
+    throw Error(ErrorCode::locked, "another process is writing to the archive", {path.string()},
+                "try again when it is done");
+  }
+}
+
+WriterLock::~WriterLock() {
+  // An archive that nothing was ever stored in is no archive.
+  std::error_code error;
+  if (std::filesystem::file_size(path_, error) == 0 && !error)
+    std::filesystem::remove(path_, error);
+  ::close(descriptor_);
+}
+
+void ArchiveStore::Impl::require_transaction() const {
+  assert(writing && in_transaction && "writes belong in a transaction");
+}
+
+std::pair<std::string, std::string> split_name(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  if (slash == std::string::npos) return {"", name};
+  return {name.substr(0, slash), name.substr(slash + 1)};
+}
+
+std::string join_name(const std::string& folder, const std::string& leaf) {
+  return folder.empty() ? leaf : folder + "/" + leaf;
+}
+
+const std::vector<std::string>& part_names() {
+  static const std::vector<std::string> names = {"curves", "repeats",     "contacts",
+                                                 "root",   "corrections", "text"};
+  return names;
+}
+
+Bytes pack_spent(const std::vector<std::pair<std::string, std::uint64_t>>& spent) {
+  Bytes bytes;
+  for (const auto& [name, size] : spent) {
+    const auto part = std::ranges::find(part_names(), name);
+    assert(part != part_names().end());
+    bytes.push_back(static_cast<std::uint8_t>(part - part_names().begin()));
+    std::uint64_t rest = size;
+    for (; rest >= 128; rest >>= 7) bytes.push_back(static_cast<std::uint8_t>(rest | 128));
+    bytes.push_back(static_cast<std::uint8_t>(rest));
+  }
+  return bytes;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> unpack_spent(const Bytes& bytes) {
+  std::vector<std::pair<std::string, std::uint64_t>> spent;
+  for (std::size_t i = 0; i < bytes.size();) {
+    const std::size_t part = bytes[i++];
+    std::uint64_t size = 0;
+    int shift = 0;
+    while (i < bytes.size() && shift < 63) {
+      size |= std::uint64_t{bytes[i] & 127u} << shift;
+      shift += 7;
+      if ((bytes[i++] & 128) == 0) break;
+    }
+    spent.emplace_back(part < part_names().size() ? part_names()[part] : "other", size);
+  }
+  return spent;
+}
+
+std::int64_t stored_address(std::uint64_t address) {
+  return static_cast<std::int64_t>(address ^ (std::uint64_t{1} << 63));
+}
+
+std::uint64_t address_of(std::int64_t stored) {
+  return static_cast<std::uint64_t>(stored) ^ (std::uint64_t{1} << 63);
+}
+
+ShortDigest row_digest(const SkeletonRecord& record) {
+  Hasher hasher;
+  hasher.add_bytes(record.structure);
+  hasher.add_number(static_cast<int>(record.format));
+  hasher.add_number(static_cast<std::int64_t>(record.joints));
+  hasher.add_number(static_cast<std::int64_t>(record.channels));
+  hasher.add_text(record.root);
+  return shortened(hasher.finish());
+}
+
+Digest proportions_identity(const ProportionsRecord& record) {
+  Hasher hasher;
+  hasher.add_real(record.millimetres_per_unit);
+  hasher.add_real(record.frame_rate);
+  hasher.add_number(record.frame_rate_assumed);
+  hasher.add_text(record.asf_name);
+  hasher.add_bytes(record.layout);
+  hasher.add_text(record.source_text);
+  return hasher.finish();
+}
+
+Digest space_digest(const Digest& structure, const Digest& base, const Bytes& data) {
+  Hasher hasher;
+  hasher.add_bytes(structure);
+  hasher.add_bytes(base);
+  hasher.add_bytes(data);
+  return hasher.finish();
+}
+
+namespace {
+
+std::int64_t micrometres(double millimetres) { return std::llround(millimetres * 1000.0); }
+
+/// What the row and the content of a take have in common.
+void add_take(Hasher& hasher, const TakeRecord& record) {
+  const TakeInfo& info = record.info;
+  hasher.add_text(info.name);
+  hasher.add_text(info.subject);
+  hasher.add_text(info.description);
+  hasher.add_text(info.tags);
+  hasher.add_number(info.frames);
+  hasher.add_number(static_cast<int>(info.fidelity.tier));
+  hasher.add_real(info.fidelity.limit_mm);
+  hasher.add_number(static_cast<std::int64_t>(info.text_bytes));
+  hasher.add_number(micrometres(info.error_mm.mean));
+  hasher.add_number(micrometres(info.error_mm.rms));
+  hasher.add_number(micrometres(info.error_mm.p99));
+  hasher.add_number(micrometres(info.error_mm.max));
+  hasher.add_bytes(record.error_quantiles);
+  hasher.add_bytes(pack_spent(record.spent));
+  hasher.add_text(info.source_digest);
+}
+
+}  // namespace
+
+ShortDigest row_digest(const TakeRecord& record, const ShortDigest& motion) {
+  Hasher hasher;
+  add_take(hasher, record);
+  hasher.add_number(record.proportions);
+  hasher.add_number(record.space);
+  hasher.add_bytes(motion);
+  return shortened(hasher.finish());
+}
+
+Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
+                    const Digest& motion, std::span<const ClipRecord> clips) {
+  Hasher hasher;
+  add_take(hasher, record);
+  hasher.add_bytes(proportions);
+  hasher.add_bytes(space);
+  hasher.add_bytes(motion);
+  for (const ClipRecord& clip : clips) {
+    hasher.add_number(static_cast<std::int64_t>(clip.id));
+    hasher.add_number(clip.first_frame);
+    hasher.add_number(clip.frames);
+    hasher.add_number(static_cast<int>(clip.kind));
+    hasher.add_number(clip.group);
+    hasher.add_number(static_cast<std::int64_t>(clip.primary));
+    hasher.add_number(static_cast<std::int64_t>(clip.bytes));
+  }
+  return hasher.finish();
+}
+
+}  // namespace reprise
