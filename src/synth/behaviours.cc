@@ -28,6 +28,7 @@ double over_foot(Side side) { return sign_of(side) * 0.8 * stance_half_width; }
 
 /// An arm goes through `count` poses, from near rest and back to near rest.
 void busy_arm(Performance& performance, Random& random, Side side, int count) {
+  count = std::clamp(count, 1, static_cast<int>(performance.seconds() / 0.6));
   std::vector<ArmKey> keys = {{0, arm_pose(ArmPlace::rest, random)}};
   for (int i = 1; i <= count; ++i) {
     const double time = (i + random.uniform(-0.25, 0.25)) / (count + 1) * performance.seconds();
@@ -85,9 +86,9 @@ void wave(Performance& p, Random& random, bool both) {
       if (random.chance(0.6)) busy_arm(p, random, side, 1);
       continue;
     }
-    hold_arm(p, random, side, random.chance(0.7) ? ArmPlace::wave : ArmPlace::overhead, 0.25, 0.78);
+    hold_arm(p, random, side, random.chance(0.7) ? ArmPlace::wave : ArmPlace::overhead, 0.25, 0.74);
     const double frequency = random.uniform(1.2, 2.6);
-    const double from = 0.2 * p.seconds(), to = 0.84 * p.seconds();
+    const double from = 0.2 * p.seconds(), to = 0.82 * p.seconds();
     p.add_oscillation(arm_track(side, arm_x), {from, to, frequency, random.uniform(6, 16), 0});
     p.add_oscillation(arm_track(side, elbow), {from, to, frequency, random.uniform(8, 22), 0.5});
     p.add_oscillation(arm_track(side, hand_z), {from, to, frequency, random.uniform(8, 25), 1.1});
@@ -103,10 +104,14 @@ void punch(Performance& p, Random& random) {
                               {hit * seconds - reach, guard},
                               {hit * seconds + 0.05, arm_pose(ArmPlace::punch, random)},
                               {hit * seconds + 0.35, arm_pose(ArmPlace::guard, random)}};
-  if (random.chance(0.5)) keys.push_back({0.8 * seconds + 0.1, arm_pose(ArmPlace::across, random)});
-  keys.push_back({seconds, arm_pose(ArmPlace::rest, random)});
+  const double over = hit * seconds + 0.35;
+  if (seconds - over > 0.8 && random.chance(0.5)) {
+    keys.push_back({0.5 * (over + seconds), arm_pose(ArmPlace::across, random)});
+  }
+  keys.push_back(
+      {seconds, arm_pose(seconds - over > 0.4 ? ArmPlace::rest : ArmPlace::guard, random)});
   set_arm(p, side, keys);
-  hold_arm(p, random, other(side), ArmPlace::guard, 0.1, 0.8);
+  hold_arm(p, random, other(side), ArmPlace::guard, 0.25, 0.65);
   const double twist = -sign_of(side) * random.uniform(15, 30);
   bend(p, random, torso_twist,
        {{0, 0}, {hit - 0.15, -0.6 * twist}, {hit + 0.02, twist}, {0.8, 0.3 * twist}, {1, 0}});
@@ -161,13 +166,15 @@ void crouch(Performance& p, Random& random) {
 
 void jump(Performance& p, Random& random) {
   const double seconds = p.seconds();
-  const double flight = random.uniform(0.36, 0.52);
-  const double up = random.uniform(0.42, 0.5) * seconds, down = up + flight;
+  const double flight = random.uniform(0.36, seconds < 1.6 ? 0.38 : 0.52);
+  const double landing = 0.42;  // seconds to come to rest after it
+  const double up = std::min(random.uniform(0.42, 0.5) * seconds, seconds - flight - landing);
+  const double down = up + flight;
   const double height = 9.81 * flight * flight / 8 / 0.85;  // of the ballistic arc, in legs
   const double far = random.chance(0.5) ? random.uniform(0.2, 0.7) : 0;
   const double dip = random.uniform(0.18, 0.3);
   const Key rise[] = {{0, 0},        {up - 0.28, -dip},        {up, 0.0},
-                      {down, -0.02}, {down + 0.2, -0.7 * dip}, {std::max(seconds, down + 0.35), 0}};
+                      {down, -0.02}, {down + 0.2, -0.7 * dip}, {seconds, 0}};
   p.add_keys(pelvis_rise, rise);
   for (long i = 0; i < p.samples(); ++i) {
     const double u = (static_cast<double>(i) / Performance::rate - up) / flight;
@@ -181,8 +188,7 @@ void jump(Performance& p, Random& random) {
     }
   }
   const Key pitch[] = {{up - 0.15, 0}, {up + 0.02, 45}, {up + 0.6 * flight, 15}, {down + 0.02, 0}};
-  const Key lean[] = {{0, 0},    {up - 0.28, 30},  {up, 2},
-                      {down, 8}, {down + 0.2, 22}, {down + 0.6, 0}};
+  const Key lean[] = {{0, 0}, {up - 0.28, 30}, {up, 2}, {down, 8}, {down + 0.2, 22}, {seconds, 0}};
   p.add_keys(torso_pitch, lean);
   for (const Side side : {Side::left, Side::right}) {
     p.add_keys(foot_track(side, foot_pitch), pitch);
@@ -191,7 +197,7 @@ void jump(Performance& p, Random& random) {
         {up - 0.26, arm_pose(ArmPlace::behind, random)},
         {up + 0.08, arm_pose(random.chance(0.5) ? ArmPlace::overhead : ArmPlace::front, random)},
         {down + 0.15, arm_pose(ArmPlace::low_front, random)},
-        {std::max(seconds, down + 0.4), arm_pose(ArmPlace::rest, random)}};
+        {seconds, arm_pose(ArmPlace::rest, random)}};
     set_arm(p, side, arms);
   }
 }
@@ -246,7 +252,7 @@ void arm_circles(Performance& p, Random& random) {
       busy_arm(p, random, side, 1);
       continue;
     }
-    hold_arm(p, random, side, ArmPlace::side, 0.18, 0.85);
+    hold_arm(p, random, side, ArmPlace::side, 0.18, 0.76);
     const double from = 0.1 * p.seconds(), to = 0.93 * p.seconds();
     p.add_oscillation(arm_track(side, arm_z), {from, to, frequency, up, 0});
     p.add_oscillation(arm_track(side, arm_y), {from, to, frequency, back, 0.5 * pi});
@@ -306,7 +312,7 @@ void clap(Performance& p, Random& random) {
   const double frequency = random.uniform(1.0, 2.4), open = random.uniform(12, 24);
   const ArmPlace place = random.chance(0.6) ? ArmPlace::front : ArmPlace::overhead;
   for (const Side side : {Side::left, Side::right}) {
-    hold_arm(p, random, side, place, 0.2, 0.82);
+    hold_arm(p, random, side, place, 0.2, 0.76);
     p.add_oscillation(arm_track(side, arm_y),
                       {0.15 * p.seconds(), 0.9 * p.seconds(), frequency, open, 0});
     p.add_oscillation(arm_track(side, arm_x),
@@ -464,7 +470,9 @@ bool is_stepping(Behaviour behaviour) {
 
 Performance perform(Behaviour behaviour, Random& random, double most_seconds) {
   const double most = std::max(1.2, most_seconds);
-  const double shortest = behaviour == Behaviour::punch ? 1.0 : std::min(1.7, most);
+  double shortest = std::min(1.7, most);
+  if (behaviour == Behaviour::punch) shortest = 1.0;
+  if (behaviour == Behaviour::jump) shortest = 1.6;
   const double seconds = random.uniform(shortest, std::max(shortest, most - 0.2));
   Performance p(seconds);
   if (is_stepping(behaviour)) {
@@ -496,7 +504,7 @@ Performance perform_idle(double seconds, Random& random) {
   p.add_oscillation(head_pitch,
                     {0, seconds, slow * 1.1, random.uniform(2, 8), random.uniform(0, 6)});
   for (const Side side : {Side::left, Side::right}) {
-    if (random.chance(0.3))
+    if (seconds > 1.8 && random.chance(0.3))
       hold_arm(p, random, side, random.chance(0.5) ? ArmPlace::hip : ArmPlace::across, 0.25, 0.75);
     p.add_oscillation(arm_track(side, arm_y),
                       {0, seconds, slow, random.uniform(1, 5), random.uniform(0, 6)});

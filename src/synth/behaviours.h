@@ -34,7 +34,8 @@ enum class Behaviour {
 };
 
 /// A performance of 1 to 4 s with details of its own; it starts and ends at rest, arms at any
-/// place. `most_seconds` shortens it.
+/// place. `most_seconds` shortens it,
+/// as far as the behaviour can be done in that time.
 Performance perform(Behaviour behaviour, Random& random, double most_seconds = 4);
 
 /// Someone who stands and shifts the weight.

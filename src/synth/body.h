@@ -59,6 +59,11 @@ struct JointDescription {
 };
 
 const JointDescription& describe(int joint);
+/// True where a BVH joint turns Z, Y, X, so that its angles are the body's own; the hips and elbows
+/// turn Z, X, Y, which keeps them off the pole in the middle axis.
+constexpr bool turns_zyx(int joint) {
+  return joint != hips && joint != left_fore_arm && joint != right_fore_arm;
+}
 /// The joint that the bone of `joint` ends in, or -1 where it ends in an end site.
 int bone_end(int joint);
 

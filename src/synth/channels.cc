@@ -55,7 +55,7 @@ Eigen::MatrixX3d format_angles(const PoseMatrix& poses, int joint, MotionFormat 
   Eigen::MatrixX3d result(poses.rows(), 3);
   Vector3d last = Vector3d::Zero();
   for (long i = 0; i < poses.rows(); ++i) {
-    if (!bvh && joint != hips) {
+    if (joint != hips && (!bvh || turns_zyx(joint))) {
       result.row(i) = poses.row(i).segment<3>(angle_column(joint));
       continue;
     }

@@ -151,7 +151,7 @@ void follow_feet(Performance& performance, const GaitStyle& style) {
 Performance perform_steps(const GaitStyle& style, int steps, double turn, double direction,
                           Side first) {
   const double flight = style.swing_share * style.step_seconds;
-  const double lead = 0.18;
+  const double lead = 0.5 * flight + 0.02;  // time for the first heel to rise
   const double seconds =
       2 * lead + (steps - 1) * style.step_seconds + std::max(flight, style.step_seconds) + 0.12;
   Performance performance(seconds);

@@ -102,7 +102,12 @@ void Performance::smooth(int first, int last, double sigma) {
   for (int track = first; track < last; ++track) {
     Eigen::VectorXd column = tracks_.col(track);
     smooth_column(column, sigma * rate);
-    tracks_.col(track) = column;
+    // The ends stay as they are, at rest.
+    for (long i = 0; i < column.size(); ++i) {
+      const double inside = static_cast<double>(std::min(i, column.size() - 1 - i));
+      const double weight = minimum_jerk(inside / (4 * sigma * rate));
+      tracks_(i, track) += weight * (column[i] - tracks_(i, track));
+    }
   }
 }
 

@@ -91,7 +91,7 @@ class Performance {
   /// The row at a time, between samples by Catmull-Rom.
   TrackRow at(double time) const;
 
-  /// Low-passes the tracks [first, last) with a Gaussian of `sigma` seconds.
+  /// Low-passes the tracks [first, last) with a Gaussian of `sigma` seconds, but for the ends.
   void smooth(int first, int last, double sigma);
 
  private:

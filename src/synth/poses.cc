@@ -37,8 +37,7 @@ Vector3d ankle_place(const TrackMatrix& tracks, long frame, Side side, const Pro
   const auto value = [&](FootTrack track) { return tracks(frame, foot_track(side, track)); };
   const double pitch = value(foot_pitch);
   const Vector3d ball = body.offset[legs[static_cast<int>(side)].toes];
-  const Vector3d pivot = pitch > 0 ? Vector3d(0, -body.ankle_height, ball.z())
-                                   : Vector3d(0, -body.ankle_height, -0.35 * ball.z());
+  const Vector3d pivot = pitch > 0 ? ball : Vector3d(0, -body.ankle_height, -0.35 * ball.z());
   const Matrix3d yaw = rotation_zyx(0, value(foot_yaw), 0);
   const Vector3d ground(value(foot_x) * body.leg(), value(foot_lift) * body.leg(),
                         value(foot_z) * body.leg());
@@ -120,7 +119,7 @@ void pose_leg(const TrackMatrix& tracks, long frame, Side side, const Matrix3d& 
   set(leg.shank, {knee, 0, 0});
   set(leg.foot, angles_zyx(shank.transpose() * foot));
   // Toes stay flat on the floor while the heel rises, and straighten in the air.
-  set(leg.toes, {-std::max(0.0, pitch) * (1 - minimum_jerk(lift / 0.10)) - 3, 0, 0});
+  set(leg.toes, {-std::max(0.0, pitch) * (1 - minimum_jerk(lift / 0.20)) - 3, 0, 0});
 }
 
 /// A track some time ago.

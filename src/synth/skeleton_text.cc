@@ -20,9 +20,10 @@ void append_joint(std::string& text, const Proportions& body, int joint, int dep
   text += fmt::format("{}{} {}\n{}{{\n", indent, joint == hips ? "ROOT" : "JOINT",
                       describe(joint).bvh_name, indent);
   text += offset_line(inner, body.offset[static_cast<std::size_t>(joint)]);
-  text += inner + (joint == hips
-                       ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
-                       : "CHANNELS 3 Zrotation Xrotation Yrotation\n");
+  text +=
+      inner + fmt::format("CHANNELS {}", joint == hips ? "6 Xposition Yposition Zposition" : "3");
+  text +=
+      turns_zyx(joint) ? " Zrotation Yrotation Xrotation\n" : " Zrotation Xrotation Yrotation\n";
   bool has_child = false;
   for (int child = joint + 1; child < joint_count; ++child) {
     if (describe(child).parent != joint) continue;
