@@ -89,7 +89,8 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
         report.damaged.push_back({all[i].name, "its source has another number of frames"});
       }
       if (!is_within(all[i].fidelity, comparison.errors)) {
-        report.damaged.push_back({all[i].name, broken_promise(all[i].fidelity, comparison.errors)});
+        report.damaged.push_back(
+            {all[i].name, broken_promise(all[i].fidelity, comparison.errors), true});
       }
       const auto own = joint_distances(joint_positions(*original.skeleton, original.channels),
                                        joint_positions(*decoded.skeleton, decoded.channels));

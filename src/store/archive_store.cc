@@ -2,6 +2,8 @@
 #include "store/archive_store.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <sstream>
 
 #include "store/page_checksum_vfs.h"
@@ -38,22 +40,41 @@ void check_schema(const Database& database) {
     throw_damaged(database.path(), "the tables are not those of a Reprise archive");
 }
 
-/// Version, identity and size of an archive that was opened.
-void check_identity(Database& database) {
-  const fs::path& path = database.path();
-  database.run("BEGIN");
-  Statement(database, "SELECT count(*) FROM sqlite_schema").step();
-  if (pragma(database, "application_id") != application_id) {
+/// A number of the file's header, high byte first.
+std::int64_t header_number(const std::array<char, 100>& header, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t b = 0; b < 4; ++b)
+    value = value << 8 | static_cast<std::uint8_t>(header[at + b]);
+  return static_cast<std::int32_t>(value);
+}
+
+/// What the file is, read from its header alone: another format may have another kind of pages.
+void check_header(const fs::path& path) {
+  constexpr std::string_view magic("SQLite format 3\0", 16);
+  constexpr std::size_t version_at = 60, application_at = 68;
+  std::array<char, 100> header{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::failed, "the archive cannot be opened", {path.string()});
+  file.read(header.data(), header.size());
+  if (!std::string_view(header.data(), header.size()).starts_with(magic) ||
+      header_number(header, application_at) != application_id) {
     throw_damaged(path, "this is not a Reprise archive");
   }
-  const std::int64_t version = pragma(database, "user_version");
+  const std::int64_t version = header_number(header, version_at);
   if (version / 1000 > format_version / 1000) {
     throw Error(ErrorCode::newer_version,
-                "the archive has format " + std::to_string(version / 1000) + "." +
-                    std::to_string(version % 1000) + "; this program reads format " +
-                    std::to_string(format_version / 1000),
+                "the archive has format " + std::to_string(version / 1000) +
+                    "; this program reads format " + std::to_string(format_version / 1000),
                 {path.string()}, "a newer version of the program reads it");
   }
+}
+
+/// Identity, size and tables of an archive that was opened.
+void check_identity(Database& database) {
+  const fs::path& path = database.path();
+  check_header(path);
+  database.run("BEGIN");
+  Statement(database, "SELECT count(*) FROM sqlite_schema").step();
   const auto size = static_cast<std::int64_t>(fs::file_size(path));
   if (size != pragma(database, "page_count") * pragma(database, "page_size")) {
     throw_damaged(path, "the archive is damaged: the file is " + std::to_string(size) +
@@ -103,6 +124,7 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
       if (cannot.code() == ErrorCode::damaged) throw;
     }
   }
+  check_header(path);
   auto impl = std::make_unique<Impl>();
   impl->database.emplace(path, Database::Mode::read);
   check_identity(*impl->database);

@@ -127,7 +127,8 @@ void CommandTest::make_library(const std::string& format) const {
 
 std::vector<std::string> CommandTest::take_names(const std::string& archive) const {
   std::vector<std::string> names;
-  for (const auto& take : document({"list", archive}).at("takes")) names.push_back(take.at("name"));
+  const auto list = document({"list", archive});
+  for (const auto& take : list.at("takes")) names.push_back(take.at("name"));
   return names;
 }
 

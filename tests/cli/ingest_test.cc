@@ -104,7 +104,8 @@ TEST_F(IngestTest, FiltersNarrowLists) {
   make_library();
   const std::string name = take_names().front();
   EXPECT_EQ(document({"list", "lib.rpz", "--take", name}).at("takes").size(), 1U);
-  for (const auto& clip : document({"list", "lib.rpz", "--clips", "--take", name}).at("clips")) {
+  const auto clip_list = document({"list", "lib.rpz", "--clips", "--take", name});
+  for (const auto& clip : clip_list.at("clips")) {
     EXPECT_EQ(clip.at("take"), name);
   }
   const auto all = document({"list", "lib.rpz", "--clips"}).at("clips");
@@ -141,7 +142,8 @@ TEST_F(IngestTest, MeanIsHeld) {
   output({"synth", "takes", "--takes", "3", "--seconds", "3"});
   output({"ingest", "fine.rpz", "takes", "--mean-mm", "3"});
   output({"ingest", "coarse.rpz", "takes", "--mean-mm", "30"});
-  for (const auto& take : document({"list", "fine.rpz"}).at("takes")) {
+  const auto take_list = document({"list", "fine.rpz"});
+  for (const auto& take : take_list.at("takes")) {
     EXPECT_LE(take.at("error_mm").at("mean").get<double>(), 3.0);
   }
   EXPECT_LT(document({"stats", "coarse.rpz"}).at("payload_bytes"),

@@ -16,7 +16,8 @@ TEST_P(WholeLifeTest, IntoTheArchiveAndBack) {
   const auto names = take_names();
   ASSERT_EQ(names.size(), 4U);
   output({"extract", "lib.rpz", "--all", "-d", "out"});
-  for (const auto& take : document({"list", "lib.rpz"}).at("takes")) {
+  const auto take_list = document({"list", "lib.rpz"});
+  for (const auto& take : take_list.at("takes")) {
     const std::string file = take.at("name").get<std::string>() + "." + format;
     const auto apart = document({"compare", "takes/" + file, "out/" + file});
     EXPECT_EQ(apart.at("missing_frames"), 0);
