@@ -40,7 +40,9 @@ enum BodyJoint : int {
 };
 
 enum class Side : int { left = 0, right = 1 };
-constexpr int sides = 2;
+constexpr Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
+/// 1 for the left, which is +X.
+constexpr double sign_of(Side side) { return side == Side::left ? 1 : -1; }
 
 /// A range of one angle in degrees.
 struct AngleLimits {

@@ -6,9 +6,6 @@
 namespace reprise::synth {
 namespace {
 
-Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
-double sign_of(Side side) { return side == Side::left ? 1 : -1; }
-
 void write_step(TrackMatrix& tracks, const Footstep& step) {
   const double rate = Performance::rate;
   const int x = foot_track(step.side, foot_x);

@@ -32,7 +32,7 @@ TrackRow standing() {
   TrackRow row = TrackRow::Zero();
   row[pelvis_rise] = -0.012;
   for (const Side side : {Side::left, Side::right}) {
-    const double sign = side == Side::left ? 1 : -1;
+    const double sign = sign_of(side);
     row[foot_track(side, foot_x)] = sign * stance_half_width;
     row[foot_track(side, foot_z)] = -pelvis_before_ankles;
     row[foot_track(side, foot_yaw)] = sign * 7;

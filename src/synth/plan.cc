@@ -8,8 +8,8 @@
 namespace reprise::synth {
 namespace {
 
-/// Speeds, noises and lengths of planted repeats, as in the retrieval benchmarks
-/// (docs/measures.md).
+/// How repeats differ from the motion itself: in speed as far as repeated-motion analysis is to
+/// follow (0.5 to 2 times), and by smooth noise (RMS degrees a joint). (docs/measures.md).
 constexpr std::array<double, 5> speeds = {0.5, 0.75, 1.0, 1.33, 2.0};
 constexpr std::array<double, 3> noises = {0, 1, 3};
 constexpr double longest_motif_seconds = 4;

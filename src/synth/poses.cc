@@ -154,7 +154,7 @@ void pose_torso(const TrackMatrix& tracks, long frame, double frame_rate, const 
 void pose_arm(const TrackMatrix& tracks, long frame, Side side, const Posture& posture,
               PoseMatrix& poses) {
   const ArmJoints& arm = arms[static_cast<int>(side)];
-  const double mirror = side == Side::left ? 1 : -1;
+  const double mirror = sign_of(side);
   const auto value = [&](ArmTrack track) { return tracks(frame, arm_track(side, track)); };
   // Arms that hang are held out by the posture; raised ones are not.
   const double hanging = std::clamp((0 - value(arm_z)) / 75, 0.0, 1.0);
