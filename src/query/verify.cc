@@ -80,13 +80,13 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       if (!against) continue;
       const fs::path* source = source_of(sources, all[i].name);
       if (source == nullptr) {
-        report.damaged.push_back({all[i].name, "its source is not in the folder"});
+        report.damaged.push_back({all[i].name, "its source is not in the folder", true});
         continue;
       }
       const Take original = read_motion_file(*source, read);
       const Comparison comparison = compare_takes(original, decoded);
       if (comparison.missing_frames != 0) {
-        report.damaged.push_back({all[i].name, "its source has another number of frames"});
+        report.damaged.push_back({all[i].name, "its source has another number of frames", true});
       }
       if (!is_within(all[i].fidelity, comparison.errors)) {
         report.damaged.push_back(
