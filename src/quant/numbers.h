@@ -19,7 +19,10 @@ inline void encode_number(RangeEncoder& encoder, std::uint32_t value) {
 
 inline std::uint32_t decode_number(RangeDecoder& decoder) {
   int width = 0;
-  while (width < 32 && decoder.decode_plain(1) == 0) ++width;
+  while (decoder.decode_plain(1) == 0) {
+    // No number has more bits; only a damaged stream says so.
+    if (++width > 32) return 0;
+  }
   const std::uint64_t plus_one = (std::uint64_t{1} << width) | decoder.decode_plain(width);
   return static_cast<std::uint32_t>(plus_one - 1);
 }

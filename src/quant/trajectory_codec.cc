@@ -24,6 +24,8 @@ enum Decision : std::uint32_t {
 /// Magnitudes up to this are coded one by one, larger ones by their number of bits.
 constexpr int unary_limit = 6;
 constexpr int exponent_bits = 5;
+/// Contexts tell no difference between larger magnitudes than this.
+constexpr int context_limit = 1 << 20;
 
 constexpr std::uint32_t level_slots = KnotScales::level_slots;
 constexpr std::uint32_t column_slots = 72;
@@ -102,10 +104,11 @@ class KnotWalk {
     return std::min<int>(static_cast<int>(node - (1u << width)), shape_.trajectories);
   }
 
+  /// A knot that is coded already, as contexts see it; 0 outside.
   int at(Index frame, int column) const {
-    return frame >= 0 && frame < shape_.frames && column >= 0 && column < shape_.trajectories
-               ? knots_(frame, column)
-               : 0;
+    const bool inside =
+        frame >= 0 && frame < shape_.frames && column >= 0 && column < shape_.trajectories;
+    return inside ? std::clamp(knots_(frame, column), -context_limit, context_limit) : 0;
   }
 
   void code_knot(Index frame, int column, Index step, Index stride, std::uint32_t slot,
@@ -114,7 +117,7 @@ class KnotWalk {
     const int left = coarsest ? 0 : at(frame - stride, column);
     const int right = coarsest ? 0 : at(frame + stride, column);
     const int beside = at(frame, column - 1), beside_that = at(frame, column - 2);
-    const int predicted = coarsest ? prediction(column, before, before_that) : 0;
+    const int predicted = coarsest ? prediction(frame - step, column) : 0;
     // Far above the prediction only what differs from it counts.
     const int a = std::abs(coarsest && predicted != 0 ? before - before_that : before);
     const int a2 = coarsest ? 0 : std::abs(before_that);
@@ -127,9 +130,9 @@ class KnotWalk {
         : column >= shape_.trajectories - shape_.direct
             ? column_slots - 1
             : std::min<std::uint32_t>(root_slots + u(column - shape_.root), column_slots - 2);
-    const auto expected = u(std::clamp(
-        scales_.at(shape_, static_cast<int>(slot), column) - shape_.step_index / 4 + 8, 0,
-        static_cast<int>(scale_bins) - 1));
+    const auto expected =
+        u(std::clamp(scales_.at(shape_, static_cast<int>(slot), column) - shape_.step_index / 4 + 8,
+                     0, static_cast<int>(scale_bins) - 1));
     base_[0] = expected * level_slots + slot;
     base_[1] = (slot * magnitude_bins + bin(2 * a + a2)) * magnitude_bins + bin(parents);
     base_[2] = (bin(neighbours) * magnitude_bins + bin(a)) * magnitude_bins + bin(parents);
@@ -137,14 +140,19 @@ class KnotWalk {
     base_[4] = slot * column_slots + column_slot;
     slot_ = slot;
     const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
+    // In unsigned arithmetic: a damaged stream may ask for any sum.
+    const auto residual = static_cast<std::int32_t>(
+        static_cast<std::uint32_t>(knots_(frame, column)) - static_cast<std::uint32_t>(predicted));
     knots_(frame, column) =
-        predicted + code_value(knots_(frame, column) - predicted, signs, column_slot);
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(predicted) +
+                                  static_cast<std::uint32_t>(code_value(residual, signs)));
   }
 
-  int prediction(int column, int before, int before_that) const {
+  /// The root's place and direct channels stay where they are sooner than they go back to their
+  /// mean.
+  int prediction(Index before, int column) const {
     const bool follows = column < shape_.root || column >= shape_.trajectories - shape_.direct;
-    (void)before_that;
-    return follows ? before : 0;
+    return follows && before >= 0 ? knots_(before, column) : 0;
   }
 
   bool decide(std::uint32_t decision, bool bit) {
@@ -156,13 +164,12 @@ class KnotWalk {
     return io_(contexts, bit);
   }
 
-  int code_value(int value, const int (&signs)[4], std::uint32_t column_slot) {
+  int code_value(int value, const int (&signs)[4]) {
     int magnitude = std::abs(value);
     if (!decide(is_not_zero, magnitude > 0)) return 0;
     int known = 1;
     while (known <= unary_limit && decide(is_more_than + u(known - 1), magnitude > known)) ++known;
     if (known > unary_limit) known += code_rest(magnitude - known);
-    (void)column_slot;
     base_[1] = u(signs[0] * 27 + signs[1] * 9 + signs[2] * 3 + signs[3]);
     base_[2] = u(signs[0] * 3 + signs[3]);
     base_[3] = u(signs[1] * 3 + signs[2]);
@@ -269,7 +276,8 @@ int level_slot(const KnotShape& shape, int level) {
 }
 
 int KnotScales::column_of(const KnotShape& shape, int column) const {
-  // Columns of a take that does not tumble; the further columns of one that does are taken for its heading's.
+  // Columns of a take that does not tumble; the further columns of one that does are taken for its
+  // heading's.
   constexpr int upright_root = 4;
   if (column < shape.root) return std::min(column, upright_root - 1);
   return column - shape.root + std::min(shape.root, upright_root);
@@ -286,7 +294,8 @@ void KnotScales::add(const KnotShape& shape, const Eigen::MatrixXd& knots) {
     const int slot = level_slot(shape, knot_level(f, shape.levels));
     for (int c = 0; c < columns; ++c) {
       // The coarsest knots of the root are coded by what they differ from the one before.
-      const bool follows = slot == level_slots - 1 && (c < shape.root || c >= columns - shape.direct);
+      const bool follows =
+          slot == level_slots - 1 && (c < shape.root || c >= columns - shape.direct);
       const Index before = f - (Index{1} << shape.levels);
       if (follows && before < 0) continue;
       const double value = knots(f, c) - (follows ? knots(before, c) : 0.0);
@@ -333,9 +342,8 @@ bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
   scales_.columns = static_cast<int>(columns);
   scales_.codes.resize(columns * level_slots);
   for (std::size_t i = 0; i < scales_.codes.size(); ++i) {
-    scales_.codes[i] = static_cast<std::int8_t>(
-        std::clamp(decode_signed(decoder) + expected_scale(scales_, i), KnotScales::least,
-                   KnotScales::most));
+    scales_.codes[i] = static_cast<std::int8_t>(std::clamp(
+        decode_signed(decoder) + expected_scale(scales_, i), KnotScales::least, KnotScales::most));
   }
   if (decoder.decode_plain(1) != 0) mixer_.load(decoder);
   return decoder.bytes_past_end() <= 16;

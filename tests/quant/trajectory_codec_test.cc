@@ -1,0 +1,103 @@
+#include "quant/trajectory_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "quant/catmull_rom.h"
+
+namespace reprise {
+namespace {
+
+struct Knots {
+  KnotShape shape;
+  QuantisedKnots values;
+};
+
+/// Knots that are mostly zero where levels are fine and trajectories late, and sometimes very
+/// large.
+Knots random_knots(long frames, int root, int axes, int direct, unsigned seed) {
+  std::mt19937 random(seed);
+  Knots knots;
+  knots.shape = {frames, root + axes + direct, root, direct, knot_levels(120, frames), 0, 40};
+  knots.values = QuantisedKnots::Zero(frames, knots.shape.trajectories);
+  for (long f = 0; f < frames; ++f) {
+    const int level = knot_level(f, knots.shape.levels);
+    for (int c = 0; c < knots.shape.trajectories; ++c) {
+      if (static_cast<int>(random() % 12) > level + 2 || random() % 40 < static_cast<unsigned>(c))
+        continue;
+      const int largest = random() % 50 == 0 ? 1 << 28 : 6;
+      knots.values(f, c) = static_cast<int>(random() % (2u * largest)) - largest;
+    }
+  }
+  return knots;
+}
+
+TEST(KnotModel, KnotsComeBack) {
+  unsigned seed = 1;
+  for (const long frames : {1L, 2L, 3L, 17L, 64L, 65L, 1000L}) {
+    for (const auto& [root, axes, direct] :
+         {std::array{0, 0, 1}, std::array{4, 1, 0}, std::array{4, 40, 66}, std::array{7, 90, 3}}) {
+      const Knots knots = random_knots(frames, root, axes, direct, ++seed);
+      RangeEncoder encoder;
+      KnotModel().encode(encoder, knots.shape, knots.values);
+      const auto bytes = encoder.finish();
+      RangeDecoder decoder(bytes);
+      ASSERT_EQ(KnotModel().decode(decoder, knots.shape), knots.values) << frames << " " << axes;
+      EXPECT_LE(decoder.bytes_past_end(), 8u);
+    }
+  }
+}
+
+TEST(KnotModel, EmptyKnotsCostNextToNothing) {
+  Knots knots = random_knots(5000, 4, 40, 20, 3);
+  knots.values.setZero();
+  RangeEncoder encoder;
+  KnotModel().encode(encoder, knots.shape, knots.values);
+  EXPECT_LT(encoder.finish().size(), 16u);
+}
+
+TEST(KnotModel, PriorHelpsAndIsReadAsWritten) {
+  KnotScales scales;
+  std::vector<Knots> takes;
+  for (unsigned seed = 10; seed < 16; ++seed) {
+    takes.push_back(random_knots(400, 4, 30, 2, seed));
+    scales.add(takes.back().shape, takes.back().values.cast<double>() * 32.0);
+  }
+  scales.settle();
+  KnotModel learned(scales);
+  for (const Knots& take : takes) learned.learn(take.shape, take.values);
+  const auto prior = learned.prior(true);
+  KnotModel with, without;
+  ASSERT_TRUE(with.load_prior(prior));
+  ASSERT_TRUE(without.load_prior(learned.prior(false)));
+  const Knots other = random_knots(400, 4, 30, 2, 99);
+  EXPECT_LT(KnotModel(with).learn(other.shape, other.values),
+            KnotModel(without).learn(other.shape, other.values));
+  RangeEncoder encoder;
+  KnotModel(with).encode(encoder, other.shape, other.values);
+  const auto bytes = encoder.finish();
+  KnotModel reader;
+  ASSERT_TRUE(reader.load_prior(prior));
+  RangeDecoder decoder(bytes);
+  EXPECT_EQ(reader.decode(decoder, other.shape), other.values);
+}
+
+TEST(KnotModel, GarbageIsReadWithoutHarm) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<std::uint8_t> bytes(random() % 200);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    const KnotShape shape = random_knots(100, 4, 20, 2, 7).shape;
+    RangeDecoder decoder(bytes);
+    const QuantisedKnots knots = KnotModel().decode(decoder, shape);
+    EXPECT_EQ(knots.rows(), 100);
+    KnotModel model;
+    model.load_prior(bytes);
+    RangeDecoder again(bytes);
+    model.decode(again, shape);
+  }
+}
+
+}  // namespace
+}  // namespace reprise
