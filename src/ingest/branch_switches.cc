@@ -46,19 +46,10 @@ std::vector<Angles> angles_of(const ChannelMatrix& channels,
   return result;
 }
 
-bool writes_two_ways(const std::vector<RotationChannel>& rotations) {
-  if (rotations.size() != 3) return false;
-  for (const RotationChannel& rotation : rotations) {
-    if (!rotation.active) return false;
-  }
-  return rotations[0].axis != rotations[1].axis && rotations[1].axis != rotations[2].axis &&
-         rotations[0].axis != rotations[2].axis;
-}
-
 void find_switches(int driven, const std::vector<RotationChannel>& rotations, const Take& source,
                    const ChannelMatrix& decoded, std::vector<BranchSwitch>& found) {
   if (rotations.size() > 3) return;
-  const bool flips = writes_two_ways(rotations);
+  const bool flips = turns_about_three_axes(rotations);
   std::vector<Angles> wanted = angles_of(source.channels, rotations);
   for (std::size_t f = 1; f < wanted.size(); ++f) {
     wanted[f] = nearest_writing(wanted[f], flips, wanted[f - 1]);

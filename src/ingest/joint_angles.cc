@@ -58,15 +58,6 @@ Matrix3d basis(const Vector3d& first, const Vector3d& second) {
   return result;
 }
 
-bool has_three_axes(const std::vector<RotationChannel>& rotations) {
-  if (rotations.size() != 3) return false;
-  for (const RotationChannel& rotation : rotations) {
-    if (!rotation.active) return false;
-  }
-  return rotations[0].axis != rotations[1].axis && rotations[1].axis != rotations[2].axis &&
-         rotations[0].axis != rotations[2].axis;
-}
-
 /// Coordinate ascent on the trace of target^T E over the active angles, from where they are.
 void ascend(const std::vector<RotationChannel>& rotations, const Matrix3d& target,
             std::vector<double>& angles) {
@@ -170,7 +161,7 @@ Matrix3d JointAngleSolver::solve_joint(const DrivenJoint& driven, std::span<cons
   const Matrix3d& axis = layout_.reference.joints[driven.joint].axis;
   const Matrix3d to_local = (parent * axis).transpose();
   Matrix3d local = seen_rotation(driven, markers, to_local, centre);
-  if (has_three_axes(driven.rotations)) {
+  if (turns_about_three_axes(driven.rotations)) {
     const auto& r = driven.rotations;
     const EulerAngles previous = {angles_[r[0].channel], angles_[r[1].channel],
                                   angles_[r[2].channel]};

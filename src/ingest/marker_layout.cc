@@ -71,7 +71,9 @@ class LayoutBuilder {
       for (RotationChannel& rotation : driven.rotations) rotation.active = true;
     }
     const std::vector<Vector3d> axes = turning_axes(joint, driven);
-    if (axes.empty()) return;
+    // Angles about axes that repeat are coded as they are: markers would give them back in another
+    // way.
+    if (axes.empty() || (axes.size() > 2 && !turns_about_three_axes(driven.rotations))) return;
     add_targets(driven, axes);
     layout_.driven.push_back(std::move(driven));
   }
@@ -183,6 +185,13 @@ void list_direct_channels(MarkerLayout& layout) {
 }
 
 }  // namespace
+
+bool turns_about_three_axes(const std::vector<RotationChannel>& rotations) {
+  if (rotations.size() != 3) return false;
+  const bool active = rotations[0].active && rotations[1].active && rotations[2].active;
+  return active && rotations[0].axis != rotations[1].axis &&
+         rotations[1].axis != rotations[2].axis && rotations[0].axis != rotations[2].axis;
+}
 
 std::vector<RotationChannel> rotation_channels(const Joint& joint) {
   std::vector<RotationChannel> result;

@@ -80,4 +80,7 @@ MarkerLayout make_marker_layout(const Skeleton& reference, const LayoutChoices& 
 /// The rotation channels of a joint, outermost first, none active.
 std::vector<RotationChannel> rotation_channels(const Joint& joint);
 
+/// True for three active rotations about three different axes: Euler angles that any rotation has.
+bool turns_about_three_axes(const std::vector<RotationChannel>& rotations);
+
 }  // namespace reprise
