@@ -34,6 +34,7 @@ struct Surveyed {
 
 struct CodedTake {
   std::optional<RejectedInput> rejected;
+  bool kept = false;  ///< within its fidelity
   TakeRecord record;
   std::vector<ClipRecord> clips;
 };
@@ -138,47 +139,65 @@ class Ingest {
   }
 
   void code_and_store() {
-    std::size_t bytes = 0, takes = 0;
+    code_and_store(fresh_, spaces_);
+    if (unkept_.empty()) return;
+    // Odd skeletons may move in ways that markers do not carry: their channels are coded as they
+    // are.
+    const std::vector<FreshTake> odd = std::move(unkept_);
+    unkept_.clear();
+    spaces_ = SpaceBuilder(*store_, options_).build_plain(odd, spaces_);
+    code_and_store(odd, spaces_);
+    for (const FreshTake& fresh : unkept_) {
+      report_.rejected.push_back(
+          {fresh.file.path.string(), 0, "the motion cannot be coded within the promised error"});
+    }
+  }
+
+  void code_and_store(const std::vector<FreshTake>& takes,
+                      const std::map<std::string, SpaceAssignment>& spaces) {
+    std::size_t bytes = 0, stored = 0;
     const auto commit = [&] {
-      if (takes > 0) store_->commit();
-      bytes = takes = 0;
+      if (stored > 0) store_->commit();
+      bytes = stored = 0;
       for (std::string& name : pending_) report_.added.push_back(std::move(name));
       pending_.clear();
     };
     produce_in_order(
-        fresh_.size(), options_.jobs, [&](std::size_t i) { return code_take(fresh_[i]); },
+        takes.size(), options_.jobs,
+        [&](std::size_t i) { return code_take(takes[i], spaces.at(takes[i].file.name)); },
         [&](std::size_t i, CodedTake coded) {
           if (coded.rejected) {
             report_.rejected.push_back(*coded.rejected);
+          } else if (!coded.kept) {
+            unkept_.push_back(takes[i]);
           } else {
-            if (takes == 0) store_->begin();
-            if (fresh_[i].replaces) {
-              if (const auto old = store_->find_take(fresh_[i].file.name))
-                store_->remove_take(old->info.id);
-            }
-            store_->add_take(coded.record, coded.clips);
-            pending_.push_back(fresh_[i].file.name);
+            if (stored == 0) store_->begin();
+            store_take(takes[i], coded);
             bytes += coded.record.motion.size();
-            if (++takes >= batch_takes || bytes >= batch_bytes) commit();
+            if (++stored >= batch_takes || bytes >= batch_bytes) commit();
           }
-          tick(fresh_[i].file.name);
+          tick(takes[i].file.name);
         });
     commit();
   }
 
-  CodedTake code_take(const FreshTake& fresh) const {
+  void store_take(const FreshTake& fresh, const CodedTake& coded) {
+    if (fresh.replaces) {
+      if (const auto old = store_->find_take(fresh.file.name)) store_->remove_take(old->info.id);
+    }
+    store_->add_take(coded.record, coded.clips);
+    pending_.push_back(fresh.file.name);
+  }
+
+  CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment) const {
     CodedTake coded;
     try {
       const Take take = read_again(fresh, options_.read);
-      const SpaceAssignment& assignment = spaces_.at(fresh.file.name);
       FittedTake fitted = assignment.fitted
                               ? *assignment.fitted
                               : fit_take(assignment.space->space, take, options_.fidelity.limit_mm);
-      if (!fitted.kept) {
-        throw Error(ErrorCode::rejected_input,
-                    "the motion cannot be coded within the promised error",
-                    {fresh.file.path.string()});
-      }
+      coded.kept = fitted.kept;
+      if (!coded.kept) return coded;
       coded.record = make_record(fresh, take, assignment, fitted);
       coded.clips.push_back(
           whole_take_clip(fresh.outline.content, take.frames(), coded.record.motion.size()));
@@ -219,6 +238,7 @@ class Ingest {
   MetadataTable metadata_;
   std::vector<InputFile> files_;
   std::vector<FreshTake> fresh_;
+  std::vector<FreshTake> unkept_;
   std::map<std::string, SpaceAssignment> spaces_;
   std::optional<ArchiveStore> store_;
   std::vector<std::string> pending_;

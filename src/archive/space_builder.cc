@@ -74,16 +74,25 @@ void SpaceBuilder::assign_proportions(std::int64_t skeleton, const Members& memb
 void SpaceBuilder::build_for_skeleton(const Members& members) {
   const std::int64_t skeleton = skeleton_of(members);
   assign_proportions(skeleton, members);
-  const std::vector<std::int64_t> spaces = store_.spaces_of_skeleton(skeleton);
-  if (spaces.empty()) {
+  const std::int64_t known = newest_space(skeleton);
+  if (known == 0) {
     const SpaceRecord record = train(skeleton, members);
     const std::int64_t id = store_.add_space(record);
     assign_space(id, members);
     keep_fits(id);
   } else {
-    assign_space(spaces.back(), members);
+    assign_space(known, members);
   }
   extend_where_needed(skeleton, members);
+}
+
+std::int64_t SpaceBuilder::newest_space(std::int64_t skeleton) {
+  std::vector<std::int64_t> spaces = store_.spaces_of_skeleton(skeleton);
+  for (; !spaces.empty(); spaces.pop_back()) {
+    if (read_space(store_, spaces.back()).space.layout.choices.through_markers)
+      return spaces.back();
+  }
+  return 0;
 }
 
 void SpaceBuilder::assign_space(std::int64_t id, const Members& members) {
@@ -95,13 +104,15 @@ void SpaceBuilder::assign_space(std::int64_t id, const Members& members) {
   }
 }
 
-MarkerMoments SpaceBuilder::moments_of(const MarkerLayout& layout, const Members& members) {
+MarkerMoments SpaceBuilder::moments_of(const MarkerLayout& layout, const Members& members,
+                                       bool every_frame) {
   MarkerMoments moments;
   produce_in_order(
       members.size(), options_.jobs,
       [&](std::size_t m) {
         MarkerMoments own;
-        own.add(sampled_markers(layout, read_again((*takes_)[members[m]], options_.read)));
+        const Take take = read_again((*takes_)[members[m]], options_.read);
+        own.add(every_frame ? mark_take(layout, take).markers : sampled_markers(layout, take));
         return own;
       },
       [&](std::size_t, MarkerMoments own) { moments.add(own); });
@@ -115,7 +126,7 @@ SpaceRecord SpaceBuilder::train(std::int64_t skeleton, const Members& members) {
   LayoutEvidence evidence;
   for (const std::size_t i : training) evidence.add((*takes_)[i].outline.evidence);
   MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
-  const MarkerMoments moments = moments_of(layout, training);
+  const MarkerMoments moments = moments_of(layout, training, false);
   const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
   const auto bytes = encode_space(space, 0, space_precision(space, mean_mm));
   // From here on everything is as the decoder sees it.
@@ -192,14 +203,14 @@ void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& mem
         const FreshTake& fresh = (*takes_)[members[m]];
         if (assignments_.at(fresh.file.name).fitted) return false;
         const Take take = read_again(fresh, options_.read);
-        return residual_mm(base->space, sampled_markers(base->space.layout, take)) > most;
+        return residual_mm(base->space, mark_take(base->space.layout, take).markers) > most;
       },
       [&](std::size_t m, bool unfits) {
         if (unfits) unfit.push_back(members[m]);
       });
   if (unfit.empty()) return;
   const double mean_mm = options_.fidelity.limit_mm;
-  const MarkerMoments moments = moments_of(base->space.layout, unfit);
+  const MarkerMoments moments = moments_of(base->space.layout, unfit, true);
   const CoefficientSpace space = extend_space(base->space, moments, mean_mm);
   const int known = static_cast<int>(base->space.axes.cols());
   if (space.axes.cols() == known) return;
@@ -211,6 +222,42 @@ void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& mem
   const std::int64_t id = store_.add_space(record);
   assign_space(id, unfit);
   keep_fits(id);
+}
+
+std::map<std::string, SpaceAssignment> SpaceBuilder::build_plain(
+    const std::vector<FreshTake>& takes,
+    const std::map<std::string, SpaceAssignment>& assignments) {
+  takes_ = &takes;
+  assignments_.clear();
+  store_.begin();
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    const std::string& name = takes[i].file.name;
+    assignments_[name] = assignments.at(name);
+    const std::int64_t skeleton = store_.space(assignments_[name].space_id).skeleton;
+    assign_space(plain_space(skeleton), {i});
+    assignments_[name].fitted.reset();
+  }
+  store_.commit();
+  return std::move(assignments_);
+}
+
+std::int64_t SpaceBuilder::plain_space(std::int64_t skeleton) {
+  const Skeleton reference = reference_skeleton(store_, skeleton);
+  CoefficientSpace space;
+  LayoutChoices choices;
+  choices.active.assign(static_cast<std::size_t>(reference.channel_count), false);
+  choices.through_markers = false;
+  space.layout = make_marker_layout(reference, choices);
+  space.mean.resize(0);
+  space.axes.resize(0, 0);
+  space.variance.resize(0);
+  space.start.assign(choices.active.size(), 0.0);
+  const SpaceRecord record{0, skeleton, 0,
+                           pack_space(encode_space(space, 0, {}), KnotModel().prior(false))};
+  for (const std::int64_t id : store_.spaces_of_skeleton(skeleton)) {
+    if (store_.space(id).data == record.data) return id;
+  }
+  return store_.add_space(record);
 }
 
 }  // namespace reprise

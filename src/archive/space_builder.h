@@ -29,6 +29,12 @@ class SpaceBuilder {
   std::map<std::string, SpaceAssignment> build(const std::vector<FreshTake>& takes,
                                                const std::function<void(const std::string&)>& tick);
 
+  /// For takes that no markers keep within their fidelity: a space in which every channel is coded
+  /// as it is.
+  std::map<std::string, SpaceAssignment> build_plain(
+      const std::vector<FreshTake>& takes,
+      const std::map<std::string, SpaceAssignment>& assignments);
+
  private:
   using Members =
       std::vector<std::size_t>;  // indices of takes with one skeleton structure, by name
@@ -38,7 +44,10 @@ class SpaceBuilder {
   void assign_proportions(std::int64_t skeleton, const Members& members);
   void assign_space(std::int64_t id, const Members& members);
   void extend_where_needed(std::int64_t skeleton, const Members& members);
-  MarkerMoments moments_of(const MarkerLayout& layout, const Members& members);
+  MarkerMoments moments_of(const MarkerLayout& layout, const Members& members, bool every_frame);
+  /// The space that later takes join: the newest that goes through markers; 0 where there is none.
+  std::int64_t newest_space(std::int64_t skeleton);
+  std::int64_t plain_space(std::int64_t skeleton);
   SpaceRecord train(std::int64_t skeleton, const Members& members);
   /// What the coder learns from some of the `training` takes, where that pays for `all` takes.
   std::vector<std::uint8_t> train_prior(const CoefficientSpace& space, const Members& training,

@@ -18,6 +18,7 @@ struct TrainingConstants {
   static constexpr double mean_share = 0.1;
   /// Frames are taken this many times a second.
   static constexpr double frames_a_second = 15.0;
+  static constexpr long least_frames = 8;  ///< of a take, where it has so many
   /// A channel changes if it moves by more than this (degrees, or units of the file).
   static constexpr double least_change = 1e-3;
 };

@@ -52,10 +52,7 @@ class StepSearch {
 
   int first_guess() const {
     // A coefficient takes its share of all points' error; see docs/findings for the factor.
-    const double step = 2.2 * allowed_;
-    return std::clamp(
-        static_cast<int>(std::lround(QuantiserConstants::steps_per_octave * std::log2(step))), 0,
-        QuantiserConstants::most_step);
+    return step_index_of(2.2 * allowed_);
   }
 
   ChannelMatrix decode(int step, const QuantisedKnots& quantised) const {
@@ -71,7 +68,7 @@ class StepSearch {
   FittedTake measure(int step) const {
     FittedTake tried;
     tried.shape = knots_.shape;
-    tried.shape.step_index = step;
+    tried.shape.step_half_octaves = half_octaves(step);
     tried.motion = {knots_.tumbles, step, switches_, quantise(knots_, step)};
     const PositionMatrix decoded =
         joint_positions(*take_.skeleton, decode(step, tried.motion.knots));

@@ -210,12 +210,12 @@ MarkerLayout make_marker_layout(const Skeleton& reference, const LayoutChoices& 
     layout.offsets.push_back(joint.offset * reference.millimetres_per_unit);
   }
   const Joint& root = reference.joints[choices.root_joint];
-  layout.root_aligned = has_six_degrees_of_freedom(root);
+  layout.root_aligned = choices.through_markers && has_six_degrees_of_freedom(root);
   layout.under_root = joints_under(reference, choices.root_joint);
   LayoutBuilder builder(layout);
   for (std::size_t j = 0; j < reference.joints.size(); ++j) {
     const bool is_root = static_cast<int>(j) == choices.root_joint;
-    if (layout.under_root[j] && (layout.root_aligned || !is_root)) {
+    if (choices.through_markers && layout.under_root[j] && (layout.root_aligned || !is_root)) {
       builder.add_joint(static_cast<int>(j));
     }
   }

@@ -49,8 +49,9 @@ struct DrivenJoint {
 
 /// What a set of takes decides about the layout of its skeleton; stored with the space.
 struct LayoutChoices {
-  std::vector<bool> active;  ///< of each channel: it changes in some take
-  int root_joint = 0;        ///< the joint that carries the motion through space
+  bool through_markers = true;  ///< else every channel is coded as it is
+  std::vector<bool> active;     ///< of each channel: it changes in some take
+  int root_joint = 0;           ///< the joint that carries the motion through space
   int up_axis =
       1;  ///< axis of the root joint that points up: 0..2 for X, Y, Z, 3..5 for their opposites
 };

@@ -37,6 +37,8 @@ MatrixXd MarkerMoments::covariance(const VectorXd& centre) const {
 }
 
 PrincipalAxes principal_axes(const MatrixXd& covariance, const MatrixXd& known, double residual) {
+  // A skeleton may have nothing that markers could carry.
+  if (covariance.rows() == 0) return {MatrixXd(0, 0), VectorXd(0)};
   MatrixXd rest = covariance;
   if (known.cols() > 0) {
     const MatrixXd outside =

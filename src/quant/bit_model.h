@@ -19,7 +19,8 @@ struct BitCounter {
   void update(bool bit);
 };
 
-/// How fast counters and mixers learn; docs/findings/2026-11-24-preview-coder.md has what was tried.
+/// How fast counters and mixers learn; docs/findings/2026-11-24-preview-coder.md has what was
+/// tried.
 struct BitModelConstants {
   static constexpr int count_limit = 255;   ///< slowest rate of a counter: 1 / (limit + 1.5)
   static constexpr int trained_count = 12;  ///< how sure a counter from a prior is at most

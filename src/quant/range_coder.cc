@@ -4,6 +4,8 @@ namespace reprise {
 namespace {
 
 constexpr std::uint32_t least_range = 1u << 24;
+/// So that a decoder which wants many more bytes than there are knows that something is wrong.
+constexpr int most_left_out = 8;
 
 /// The part of the range that stands for a 1.
 std::uint32_t split(std::uint32_t range, Probability one) {
@@ -57,7 +59,10 @@ std::vector<std::uint8_t> RangeEncoder::finish() {
   for (int i = 0; i < 5; ++i) shift_low();
   // The first byte is always the cache that was there before anything was coded.
   bytes_.erase(bytes_.begin());
-  while (!bytes_.empty() && bytes_.back() == 0) bytes_.pop_back();
+  for (int left_out = 0; left_out < most_left_out && !bytes_.empty() && bytes_.back() == 0;
+       ++left_out) {
+    bytes_.pop_back();
+  }
   return std::move(bytes_);
 }
 

@@ -116,6 +116,7 @@ struct Reader {
 
 template <class Io>
 void code_choices(Io& io, LayoutChoices& choices, std::size_t channels, std::size_t joints) {
+  choices.through_markers = io.plain(choices.through_markers, 1) != 0;
   BitCounter after[2];
   bool before = true;
   choices.active.resize(channels);
@@ -185,6 +186,7 @@ void code_space(Io& io, CoefficientSpace& space, const Skeleton& reference, Inde
   }
   const std::uint32_t more =
       io.plain(static_cast<std::uint32_t>(space.axes.cols() - known_axes), 12);
+  if (more > 0 && space.layout.dimensions() == 0) throw_damaged();
   if (more + known_axes > std::min<Index>(most_axes, space.layout.dimensions())) throw_damaged();
   space.axes.conservativeResize(space.layout.dimensions(), known_axes + more);
   space.variance.conservativeResize(known_axes + more);

@@ -33,8 +33,21 @@ KnotShape shape_of(const CoefficientSpace& space, const TakeShape& take, bool tu
 
 }  // namespace
 
+int half_octaves(int step_index) {
+  constexpr int per_half_octave = QuantiserConstants::steps_per_octave / 2;
+  return step_index / per_half_octave - QuantiserConstants::step_of_one_mm / per_half_octave;
+}
+
 double quantiser_step(int index) {
-  return std::pow(2.0, static_cast<double>(index) / QuantiserConstants::steps_per_octave);
+  return std::pow(2.0, static_cast<double>(index - QuantiserConstants::step_of_one_mm) /
+                           QuantiserConstants::steps_per_octave);
+}
+
+int step_index_of(double millimetres) {
+  const double octaves = std::log2(std::max(millimetres, 1e-6));
+  return std::clamp(static_cast<int>(std::lround(QuantiserConstants::steps_per_octave * octaves)) +
+                        QuantiserConstants::step_of_one_mm,
+                    0, QuantiserConstants::most_step);
 }
 
 TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
@@ -82,7 +95,7 @@ std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape&
     frame = branch.frame;
   }
   KnotShape stepped = shape;
-  stepped.step_index = motion.step_index;
+  stepped.step_half_octaves = half_octaves(motion.step_index);
   KnotModel(model).encode(encoder, stepped, motion.knots);
   return encoder.finish();
 }
@@ -108,7 +121,7 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
     motion.switches.push_back(branch);
   }
   KnotShape shape = shape_of(space, take, motion.tumbles);
-  shape.step_index = motion.step_index;
+  shape.step_half_octaves = half_octaves(motion.step_index);
   motion.knots = KnotModel(model).decode(decoder, shape);
   if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
   return motion;

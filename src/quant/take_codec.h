@@ -13,8 +13,9 @@ namespace reprise {
 
 /// Constants of the quantiser.
 struct QuantiserConstants {
-  /// Steps are powers of 2^(1/8) of a millimetre.
+  /// Steps are powers of 2^(1/8) of a millimetre, from 2^-5 mm on.
   static constexpr int steps_per_octave = 8;
+  static constexpr int step_of_one_mm = 40;
   static constexpr int most_step = 127;
   /// A value is rounded up from this part of a step on. Above 0.5: a dead zone, since a zero costs
   /// least.
@@ -24,6 +25,10 @@ struct QuantiserConstants {
 
 /// The quantisation step (mm) of an index 0 .. most_step.
 double quantiser_step(int index);
+/// The index of the step nearest to `millimetres`.
+int step_index_of(double millimetres);
+/// The step's logarithm as contexts use it (KnotShape), rounded down.
+int half_octaves(int step_index);
 
 struct TakeShape {
   long frames = 0;

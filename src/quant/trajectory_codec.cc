@@ -35,6 +35,8 @@ constexpr std::uint32_t fine_bins = 24;
 constexpr std::uint32_t end_slots = 7;  ///< bits of the number of the last trajectory in use
 
 constexpr std::uint32_t scale_bins = 24;
+/// The bin of a scale that is as large as the step.
+constexpr int scale_bias = 8;
 
 constexpr std::uint32_t knot_contexts[BitModelConstants::inputs] = {
     scale_bins * level_slots, level_slots* magnitude_bins* magnitude_bins,
@@ -130,9 +132,9 @@ class KnotWalk {
         : column >= shape_.trajectories - shape_.direct
             ? column_slots - 1
             : std::min<std::uint32_t>(root_slots + u(column - shape_.root), column_slots - 2);
-    const auto expected =
-        u(std::clamp(scales_.at(shape_, static_cast<int>(slot), column) - shape_.step_index / 4 + 8,
-                     0, static_cast<int>(scale_bins) - 1));
+    const auto expected = u(std::clamp(
+        scales_.at(shape_, static_cast<int>(slot), column) - shape_.step_half_octaves + scale_bias,
+        0, static_cast<int>(scale_bins) - 1));
     base_[0] = expected * level_slots + slot;
     base_[1] = (slot * magnitude_bins + bin(2 * a + a2)) * magnitude_bins + bin(parents);
     base_[2] = (bin(neighbours) * magnitude_bins + bin(a)) * magnitude_bins + bin(parents);

@@ -24,12 +24,13 @@ struct KnotShape {
   /// The finest level counted in frames of 120 Hz, so that takes of all rates share what was
   /// learned of a level: 0 at 120 Hz, 1 at 60 Hz, 2 at 30 Hz.
   int first_level = 0;
-  int step_index = 0;  ///< of the quantiser
+  int step_half_octaves = 0;  ///< logarithm of the quantiser's step (mm)
 };
 int first_level_of(double frame_rate);
 
-/// How large the knots of each trajectory and level are over the takes of a space (root mean square): what the
-/// coder expects before it has seen any. Levels are counted from 120 Hz; the last row is the coarsest knots.
+/// How large the knots of each trajectory and level are over the takes of a space (root mean
+/// square): what the coder expects before it has seen any. Levels are counted from 120 Hz; the last
+/// row is the coarsest knots.
 class KnotScales {
  public:
   static constexpr int level_slots = 14;
@@ -67,7 +68,8 @@ class KnotModel {
   /// Learns from knots; returns what they would cost, in bits.
   double learn(const KnotShape& shape, const QuantisedKnots& knots);
 
-  /// What was learned, as bytes; a model made with the same scales starts from them. False: not a prior.
+  /// What was learned, as bytes; a model made with the same scales starts from them. False: not a
+  /// prior.
   std::vector<std::uint8_t> prior(bool with_contexts) const;
   bool load_prior(std::span<const std::uint8_t> bytes);
 

@@ -19,7 +19,7 @@ struct Knots {
 Knots random_knots(long frames, int root, int axes, int direct, unsigned seed) {
   std::mt19937 random(seed);
   Knots knots;
-  knots.shape = {frames, root + axes + direct, root, direct, knot_levels(120, frames), 0, 40};
+  knots.shape = {frames, root + axes + direct, root, direct, knot_levels(120, frames), 0, 10};
   knots.values = QuantisedKnots::Zero(frames, knots.shape.trajectories);
   for (long f = 0; f < frames; ++f) {
     const int level = knot_level(f, knots.shape.levels);
