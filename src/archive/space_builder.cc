@@ -128,7 +128,7 @@ SpaceRecord SpaceBuilder::train(std::int64_t skeleton, const Members& members) {
   MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
   const MarkerMoments moments = moments_of(layout, training, false);
   const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
-  const auto bytes = encode_space(space, 0, space_precision(space, mean_mm));
+  const auto bytes = encode_space(space, space_precision(space, mean_mm));
   // From here on everything is as the decoder sees it.
   const CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
   const auto prior = train_prior(decoded, training, members.size());
@@ -214,7 +214,7 @@ void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& mem
   const CoefficientSpace space = extend_space(base->space, moments, mean_mm);
   const int known = static_cast<int>(base->space.axes.cols());
   if (space.axes.cols() == known) return;
-  const auto bytes = encode_space(space, known, space_precision(space, mean_mm));
+  const auto bytes = encode_extension(space, known, space_precision(space, mean_mm));
   SpaceRecord record{0, skeleton, base_id, {}};
   record.data =
       pack_space(bytes, train_prior(decode_space(bytes, base->space.layout.reference, &base->space),
@@ -253,7 +253,7 @@ std::int64_t SpaceBuilder::plain_space(std::int64_t skeleton) {
   space.variance.resize(0);
   space.start.assign(choices.active.size(), 0.0);
   const SpaceRecord record{0, skeleton, 0,
-                           pack_space(encode_space(space, 0, {}), KnotModel().prior(false))};
+                           pack_space(encode_space(space, {}), KnotModel().prior(false))};
   for (const std::int64_t id : store_.spaces_of_skeleton(skeleton)) {
     if (store_.space(id).data == record.data) return id;
   }

@@ -16,7 +16,8 @@ class RangeEncoder {
   void encode(bool bit, Probability one);
   /// `count` bits (at most 32) at one half each, high bit first.
   void encode_plain(std::uint32_t value, int count);
-  /// Ends the stream. Up to eight trailing zero bytes are left out: the decoder reads zeros past the end.
+  /// Ends the stream. Up to eight trailing zero bytes are left out: the decoder reads zeros past
+  /// the end.
   std::vector<std::uint8_t> finish();
 
  private:

@@ -195,11 +195,19 @@ void code_space(Io& io, CoefficientSpace& space, const Skeleton& reference, Inde
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_space(const CoefficientSpace& space, int known_axes,
+std::vector<std::uint8_t> encode_space(const CoefficientSpace& space,
                                        const SpacePrecision& precision) {
   Writer writer;
   CoefficientSpace copy = space;
-  code_space(writer, copy, space.layout.reference, known_axes, known_axes > 0, precision);
+  code_space(writer, copy, space.layout.reference, 0, false, precision);
+  return writer.encoder.finish();
+}
+
+std::vector<std::uint8_t> encode_extension(const CoefficientSpace& space, int known_axes,
+                                           const SpacePrecision& precision) {
+  Writer writer;
+  CoefficientSpace copy = space;
+  code_space(writer, copy, space.layout.reference, known_axes, true, precision);
   return writer.encoder.finish();
 }
 

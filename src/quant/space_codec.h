@@ -24,10 +24,13 @@ struct SpacePrecision {
   double axis_error_mm = 1.0;
 };
 
-/// Bytes of a space without its prior. `known_axes` of its axes are those of the space that it
-/// extends, and are left out, as are choices, mean and start if there are any.
-std::vector<std::uint8_t> encode_space(const CoefficientSpace& space, int known_axes,
+/// Bytes of a space without its prior.
+std::vector<std::uint8_t> encode_space(const CoefficientSpace& space,
                                        const SpacePrecision& precision);
+
+/// The same of a space that extends another: only the axes from `known_axes` on.
+std::vector<std::uint8_t> encode_extension(const CoefficientSpace& space, int known_axes,
+                                           const SpacePrecision& precision);
 
 /// `reference` is the skeleton of the layout; `base` the space that this one extends, or null.
 /// Throws Error (damaged).

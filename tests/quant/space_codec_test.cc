@@ -39,7 +39,7 @@ class SpaceCodec : public testing::Test {
 TEST_F(SpaceCodec, AxesComeBackAsFineAsAsked) {
   for (const double error : {0.1, 2.0}) {
     const SpacePrecision precision{0.5, error};
-    const auto bytes = encode_space(space_, 0, precision);
+    const auto bytes = encode_space(space_, precision);
     const CoefficientSpace decoded = decode_space(bytes, *take_.skeleton, nullptr);
     ASSERT_EQ(decoded.axes.rows(), space_.axes.rows());
     ASSERT_EQ(decoded.axes.cols(), space_.axes.cols());
@@ -56,13 +56,14 @@ TEST_F(SpaceCodec, ExtensionKeepsWhatItExtends) {
   CoefficientSpace base = space_;
   base.axes = space_.axes.leftCols(3).eval();
   base.variance = space_.variance.head(3).eval();
-  const CoefficientSpace known = decode_space(encode_space(base, 0, {}), *take_.skeleton, nullptr);
+  const CoefficientSpace known = decode_space(encode_space(base, {}), *take_.skeleton, nullptr);
   CoefficientSpace more = known;
   more.axes.conservativeResize(Eigen::NoChange, 5);
   more.axes.rightCols(2) = space_.axes.middleCols(3, 2);
   more.variance.conservativeResize(5);
   more.variance.tail(2) = space_.variance.segment(3, 2);
-  const CoefficientSpace decoded = decode_space(encode_space(more, 3, {}), *take_.skeleton, &known);
+  const CoefficientSpace decoded =
+      decode_space(encode_extension(more, 3, {}), *take_.skeleton, &known);
   ASSERT_EQ(decoded.axes.cols(), 5);
   EXPECT_EQ(decoded.axes.leftCols(3), known.axes);
   EXPECT_EQ(decoded.mean, known.mean);
@@ -70,7 +71,7 @@ TEST_F(SpaceCodec, ExtensionKeepsWhatItExtends) {
 }
 
 TEST_F(SpaceCodec, DamagedSpacesAndTakesAreErrorsOrMotion) {
-  const auto good = pack_space(encode_space(space_, 0, {}), KnotModel().prior(false));
+  const auto good = pack_space(encode_space(space_, {}), KnotModel().prior(false));
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
     auto bytes = good;
