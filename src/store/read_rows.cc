@@ -70,8 +70,9 @@ constexpr const char* take_columns =
     "takes.digest, "
     "coalesce(texts.description, ''), coalesce(texts.tags, ''), proportions.skeleton, "
     "proportions.frame_rate, proportions.assumed, skeletons.format, skeletons.channels, "
-    "length(blobs.data) FROM takes JOIN proportions ON proportions.id=takes.proportions "
-    "JOIN skeletons ON skeletons.id=proportions.skeleton JOIN blobs ON blobs.take=takes.id "
+    "length(blobs.data) FROM takes LEFT JOIN proportions ON proportions.id=takes.proportions "
+    "LEFT JOIN skeletons ON skeletons.id=proportions.skeleton LEFT JOIN blobs ON "
+    "blobs.take=takes.id "
     "LEFT JOIN subjects ON subjects.id=takes.subject LEFT JOIN texts ON texts.take=takes.id";
 
 TakeRecord take_row(Statement& row) {

@@ -206,7 +206,8 @@ TEST_F(ArchiveTest, OddTakesAreTakesToo) {
         "0\n}\n}\nMOTION\nFrames: 3\nFrame Time: 0.1\n1 50 3\n2 60 4\n3 70 -100\n");
   const auto report = add("archive", {"odd"}, 1.0);
   EXPECT_EQ(report.added.size(), 5u);
-  for (const RejectedInput& input : report.rejected) ADD_FAILURE() << input.path << ": " << input.why;
+  for (const RejectedInput& input : report.rejected)
+    ADD_FAILURE() << input.path << ": " << input.why;
   expect_all_within("archive", "odd", 1.0);
 }
 

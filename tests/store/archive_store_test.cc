@@ -1,0 +1,171 @@
+#include "store/archive_store.h"
+
+#include <sqlite3.h>
+
+#include "store/sample_store.h"
+
+namespace reprise {
+namespace {
+
+class ArchiveStoreTest : public StoreTest {};
+
+TEST_F(ArchiveStoreTest, RecordsComeBack) {
+  const Ground ground = make_sample(path_, 5);
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  for (int i = 0; i < 5; ++i) {
+    const TakeRecord put = sample_take(ground, i);
+    const auto got = store.find_take(put.info.name);
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->info.subject, put.info.subject);
+    EXPECT_EQ(got->info.description, put.info.description);
+    EXPECT_EQ(got->info.frames, put.info.frames);
+    EXPECT_EQ(got->info.frame_rate, 120.0);
+    EXPECT_TRUE(got->info.frame_rate_assumed);
+    EXPECT_EQ(got->info.error_mm.rms, 22.25);
+    EXPECT_EQ(got->info.raw_bytes, 4u * 60u * static_cast<unsigned>(put.info.frames));
+    EXPECT_EQ(got->info.source_digest, put.info.source_digest);
+    EXPECT_EQ(got->spent, put.spent);
+    EXPECT_EQ(store.motion(got->info.id), put.motion);
+    const std::int64_t ids[] = {got->info.id};
+    ASSERT_EQ(store.clips(ids).size(), 1u);
+    EXPECT_EQ(store.clips(ids)[0].id, sample_clip(i).id);
+  }
+  EXPECT_EQ(store.space(ground.space).data, random_bytes(300, 9));
+  EXPECT_TRUE(store.check_structure().empty());
+}
+
+TEST_F(ArchiveStoreTest, NamesAreFoundByTheirEnd) {
+  make_sample(path_, 5);
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  EXPECT_EQ(store.take_names_ending_in("take_4", 9), std::vector<std::string>{"walks/1/take_4"});
+  EXPECT_EQ(store.take_names_ending_in("1/take_4", 9).size(), 1u);
+  EXPECT_TRUE(store.take_names_ending_in("2/take_4", 9).empty());
+  EXPECT_TRUE(store.take_names_ending_in("ake_4", 9).empty());
+}
+
+TEST_F(ArchiveStoreTest, WordsAreFound) {
+  make_sample(path_, 5);
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  EXPECT_EQ(store.takes({"", "", "person walks", {}}).size(), 2u);
+  EXPECT_EQ(store.takes({"", "", "swims", {}}).size(), 0u);
+  EXPECT_EQ(store.takes({"", "", "\"odd\" AND (words*", {}}).size(), 0u);
+  EXPECT_EQ(store.takes({"", "subject 1", "", {}}).size(), 2u);
+}
+
+TEST_F(ArchiveStoreTest, ClipsAreFoundByPrefix) {
+  make_sample(path_, 5);
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  EXPECT_EQ(store.clips_with_prefix("123456789abcdef0").size(), 1u);
+  EXPECT_EQ(store.clips_with_prefix("1234").size(), 1u);
+  EXPECT_TRUE(store.clips_with_prefix("0000").empty());
+}
+
+TEST_F(ArchiveStoreTest, ContentDoesNotDependOnItsOrder) {
+  make_sample(path_, 4);
+  ArchiveStore other = ArchiveStore::open_for_writing(folder_ / "other.rpz");
+  other.begin();
+  const Ground ground = lay_ground(other);
+  for (const int i : {3, 1, 7, 0, 2}) add_sample(other, ground, i);
+  other.commit();
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  EXPECT_NE(other.content_digest(), store.content_digest());
+  other.begin();
+  other.remove_take(other.find_take(sample_take(ground, 7).info.name)->info.id);
+  other.commit();
+  EXPECT_EQ(other.content_digest(), store.content_digest());
+  EXPECT_TRUE(other.check_structure().empty());
+}
+
+TEST_F(ArchiveStoreTest, NothingStaysWhereAllTakesAreRemoved) {
+  make_sample(path_, 3);
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  for (const TakeInfo& info : store.takes({})) store.remove_take(info.id);
+  store.commit();
+  EXPECT_TRUE(store.skeletons().empty());
+  EXPECT_TRUE(store.subjects().empty());
+  EXPECT_TRUE(store.check_structure().empty());
+}
+
+TEST_F(ArchiveStoreTest, OneWriterAtATime) {
+  make_sample(path_, 1);
+  const ArchiveStore writer = ArchiveStore::open_for_writing(path_);
+  try {
+    ArchiveStore::open_for_writing(path_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::locked);
+  }
+}
+
+TEST_F(ArchiveStoreTest, ReadersSeeTheStateBeforeUntilACommit) {
+  const Ground ground = make_sample(path_, 2);
+  ArchiveStore writer = ArchiveStore::open_for_writing(path_);
+  const ArchiveStore reader = ArchiveStore::open_for_reading(path_);
+  const std::string before = everything(reader);
+  writer.begin();
+  add_sample(writer, ground, 5);
+  EXPECT_EQ(everything(reader), before);
+  writer.commit();
+  EXPECT_EQ(reader.takes({}).size(), 3u);
+}
+
+TEST_F(ArchiveStoreTest, RolledBackIsAsBefore) {
+  const Ground ground = make_sample(path_, 2);
+  const std::string before = read_bytes(path_);
+  {
+    ArchiveStore writer = ArchiveStore::open_for_writing(path_);
+    writer.begin();
+    add_sample(writer, ground, 5);
+    writer.roll_back();
+  }
+  EXPECT_EQ(read_bytes(path_), before);
+}
+
+TEST_F(ArchiveStoreTest, WriterThatStoresNothingLeavesNoFile) {
+  { const ArchiveStore store = ArchiveStore::open_for_writing(path_); }
+  EXPECT_FALSE(fs::exists(path_));
+}
+
+TEST_F(ArchiveStoreTest, ReadingWritesNothing) {
+  make_sample(path_, 3);
+  const std::string before = read_bytes(path_);
+  fs::permissions(path_, fs::perms::owner_read);
+  everything(ArchiveStore::open_for_reading(path_));
+  EXPECT_TRUE(ArchiveStore::open_for_reading(path_).check_structure().empty());
+  EXPECT_EQ(read_bytes(path_), before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(ArchiveStoreTest, CompactingKeepsEverything) {
+  make_sample(path_, 30);
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  for (int i = 3; i < 30; ++i) {
+    store.remove_take(store.find_take(sample_take({}, i).info.name)->info.id);
+  }
+  store.commit();
+  const std::string before = everything(store);
+  const auto size = fs::file_size(path_);
+  store.compact();
+  EXPECT_LT(fs::file_size(path_), size);
+  EXPECT_EQ(everything(store), before);
+  EXPECT_TRUE(store.check_structure().empty());
+}
+
+TEST_F(ArchiveStoreTest, StatisticsAddUp) {
+  make_sample(path_, 6);
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  std::uint64_t weights = 0;
+  const ArchiveStats stats =
+      store.stats([&](const Bytes&, std::uint64_t weight) { weights += weight; });
+  std::uint64_t sum = 0;
+  for (const auto& [name, bytes] : stats.bytes) sum += bytes;
+  EXPECT_EQ(sum, stats.archive_bytes);
+  EXPECT_EQ(stats.archive_bytes, fs::file_size(path_));
+  EXPECT_EQ(stats.takes, 6u);
+  EXPECT_EQ(weights, stats.frames * 20);
+}
+
+}  // namespace
+}  // namespace reprise
