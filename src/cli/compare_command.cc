@@ -27,7 +27,7 @@ std::string read_stdin() {
   std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
   if (text.size() > InputLimits::file_bytes) {
     throw Error(ErrorCode::failed,
-                fmt::format("A motion file has at most {} bytes.", InputLimits::file_bytes),
+                fmt::format("a motion file has at most {} bytes", InputLimits::file_bytes),
                 {"stdin", 0});
   }
   return text;
@@ -76,7 +76,7 @@ void CompareCommand::setup(CLI::App& app) {
 
 void CompareCommand::check() {
   if (original_ == "-" && decoded_ == "-") {
-    throw Error(ErrorCode::usage, "Only one of ORIGINAL and DECODED can be stdin.");
+    throw Error(ErrorCode::usage, "only one of ORIGINAL and DECODED can be stdin");
   }
 }
 

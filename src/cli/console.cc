@@ -68,8 +68,8 @@ std::FILE* Console::progress_terminal() const {
 void Console::flush() const {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  if (errno == ENOSPC) throw Error(ErrorCode::limit, "The disk that stdout goes to is full.");
-  throw Error(ErrorCode::failed, "The result could not be written to stdout.");
+  if (errno == ENOSPC) throw Error(ErrorCode::limit, "the disk that stdout goes to is full");
+  throw Error(ErrorCode::failed, "the result could not be written to stdout");
 }
 
 ProgressSink progress_sink(ProgressBar& bar) {

@@ -50,8 +50,8 @@ Json error_document(const Error& error) {
 }
 
 ExitCode report(const Error& error, const Console& console) {
-  console.complaint("reprise: " + printable(error.what()));
-  if (!error.advice().empty()) console.complaint(printable(error.advice()));
+  const std::string advice = error.advice().empty() ? "" : "; " + error.advice();
+  console.complaint("reprise: " + printable(error.what() + advice));
   console.document(error_document(error));
   return exit_code(error.code());
 }
@@ -59,7 +59,7 @@ ExitCode report(const Error& error, const Console& console) {
 Error as_error(const std::exception& exception) {
   if (const auto* known = dynamic_cast<const Error*>(&exception)) return *known;
   if (dynamic_cast<const std::bad_alloc*>(&exception) != nullptr) {
-    return Error(ErrorCode::limit, "Out of memory.");
+    return Error(ErrorCode::limit, "out of memory");
   }
   if (const auto* system = dynamic_cast<const std::system_error*>(&exception)) {
     const bool full = system->code() == std::errc::no_space_on_device;

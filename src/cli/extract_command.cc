@@ -20,15 +20,8 @@ FidelityTier parse_fidelity(const std::string& text) {
        {FidelityTier::preview, FidelityTier::standard, FidelityTier::fine, FidelityTier::exact}) {
     if (text == tier_name(tier)) return tier;
   }
-  throw Error(ErrorCode::usage, "--fidelity takes preview, standard, fine or exact, not \"" +
-                                    printable(text) + "\".");
-}
-
-MotionFormat parse_format(const std::string& text) {
-  for (const MotionFormat format : {MotionFormat::bvh, MotionFormat::asf_amc}) {
-    if (text == format_name(format)) return format;
-  }
-  throw Error(ErrorCode::usage, "--format takes bvh or amc, not \"" + printable(text) + "\".");
+  throw Error(ErrorCode::usage,
+              "--fidelity takes preview, standard, fine or exact, not \"" + printable(text) + "\"");
 }
 
 /// Writes takes into files, each AMC with its ASF.
@@ -60,8 +53,8 @@ class MotionWriter {
       target = fs::path(motion).replace_extension(".asf");
     }
     if (target == motion) {
-      throw Error(ErrorCode::failed, "The skeleton and the motion would be one file.",
-                  {target.string(), 0}, "Give the motion a name that ends in .amc.");
+      throw Error(ErrorCode::failed, "the skeleton and the motion would be one file",
+                  {target.string(), 0}, "give the motion a name that ends in .amc");
     }
     if (!file_has_content(target, skeleton.source_text)) {
       write_file_atomically(target, skeleton.source_text, overwrite_);
@@ -74,7 +67,7 @@ class MotionWriter {
   static std::string file_name_of(const std::string& stem) {
     if (stem.find('/') != std::string::npos) {
       throw Error(ErrorCode::damaged,
-                  "The archive names a skeleton in another folder: \"" + stem + "\".");
+                  "the archive names a skeleton in another folder: \"" + stem + "\"");
     }
     return stem + ".asf";
   }
@@ -141,7 +134,8 @@ void ExtractCommand::setup(CLI::App& app) {
          "A fidelity that is not higher than the stored one")
       ->type_name("TIER");
   app.add_option_function<std::string>(
-         "--format", [this](const std::string& text) { request_.format = parse_format(text); },
+         "--format",
+         [this](const std::string& text) { request_.format = parse_motion_format(text); },
          "bvh or amc; it must be the format of the source")
       ->type_name("FORMAT");
   app.add_flag("--overwrite", overwrite_, "Replace files that exist");
@@ -152,15 +146,15 @@ void ExtractCommand::setup(CLI::App& app) {
 
 void ExtractCommand::check() {
   const auto refuse = [](const std::string& why) { throw Error(ErrorCode::usage, why); };
-  if (request_.all == !request_.ids.empty()) refuse("Name takes or clips, or give --all.");
+  if (request_.all == !request_.ids.empty()) refuse("name takes or clips, or give --all");
   if (file_.empty() == folder_.empty()) {
-    refuse("Say where to write: -o FILE for one ID (- is stdout), or -d DIR for any number.");
+    refuse("say where to write: -o FILE for one ID (- is stdout), or -d DIR for any number");
   }
-  if (folder_ == "-") refuse("-d takes a folder; -o - writes to stdout.");
+  if (folder_ == "-") refuse("-d takes a folder; -o - writes to stdout");
   if (!file_.empty() && (request_.all || request_.ids.size() > 1)) {
-    refuse("-o is for one ID; -d DIR takes any number.");
+    refuse("-o is for one ID; -d DIR takes any number");
   }
-  if (request_.frames && request_.time) refuse("--frames and --time exclude each other.");
+  if (request_.frames && request_.time) refuse("--frames and --time exclude each other");
 }
 
 ExitCode ExtractCommand::run(Console& console) {
@@ -187,7 +181,9 @@ ExitCode ExtractCommand::run(Console& console) {
     bar.show({i, plan.size(), plan[i].take.name});
     const Take take = decode(archive, plan[i]);
     if (!folder_.empty()) fs::create_directories(targets[i].parent_path());
-    entries.push_back(entry_of(plan[i], writer.write(take, targets[i])));
+    const std::vector<fs::path> files = writer.write(take, targets[i]);
+    for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
+    entries.push_back(entry_of(plan[i], files));
   }
   console.document({{"extracted", entries}});
   return exit_done;

@@ -22,12 +22,12 @@ std::string clip_file_name(const TakeInfo& take, const ClipInfo& clip) {
 void check_wishes(const TakeInfo& take, const ExtractRequest& request) {
   if (request.fidelity && *request.fidelity > take.fidelity.tier) {
     throw Error(ErrorCode::usage,
-                fmt::format("{} is stored as {}; it cannot be extracted as {}.", take.name,
+                fmt::format("{} is stored as {}; it cannot be extracted as {}", take.name,
                             tier_name(take.fidelity.tier), tier_name(*request.fidelity)));
   }
   if (request.format && *request.format != take.format) {
     throw Error(ErrorCode::usage,
-                fmt::format("{} comes from {}; it cannot be written as {} yet.", take.name,
+                fmt::format("{} comes from {}; it cannot be written as {} yet", take.name,
                             format_name(take.format), format_name(*request.format)));
   }
 }
@@ -76,7 +76,7 @@ std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRe
     const bool same = other.take.id == entry.take.id && other.frames.begin == entry.frames.begin &&
                       other.frames.end == entry.frames.end;
     if (!same) {
-      throw Error(ErrorCode::failed, fmt::format("{} and {} would both be written to {}.", other.id,
+      throw Error(ErrorCode::failed, fmt::format("{} and {} would both be written to {}", other.id,
                                                  entry.id, entry.file_name));
     }
   }

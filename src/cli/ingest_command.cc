@@ -21,8 +21,8 @@ constexpr std::uint64_t greatest_jobs = 1024;
 
 [[noreturn]] void refuse_fidelity(const std::string& asked) {
   throw Error(ErrorCode::usage,
-              fmt::format("{} is not available: preview is the only fidelity yet.", asked), {},
-              "--fidelity preview, which is the default, with --mean-mm for its mean error.");
+              fmt::format("{} is not available: preview is the only fidelity yet", asked), {},
+              "--fidelity preview, which is the default, with --mean-mm for its mean error");
 }
 
 /// The prefix without the slashes at its end. Names in an archive are relative and have no "..".
@@ -34,7 +34,7 @@ std::string checked_prefix(std::string prefix) {
   }
   if (!good || prefix.find("//") != std::string::npos) {
     throw Error(ErrorCode::usage,
-                "--prefix takes a relative path of names, such as cmu or 2024/day1.");
+                "--prefix takes a relative path of names, such as cmu or 2024/day1");
   }
   return prefix;
 }
@@ -46,9 +46,9 @@ ArchiveStats stats_of(const fs::path& archive) {
 
 std::string summary(const IngestReport& report, const ArchiveStats& stats, bool dry_run) {
   Table table({{"", Table::Align::left}, {"", Table::Align::left}});
-  table.add({dry_run ? "would add" : "added",
-             fmt::format("{}, {} of motion", format_count(report.added.size(), "take"),
-                         format_clock(report.seconds))});
+  table.add(
+      {dry_run ? "would add" : "added",
+       fmt::format("{} in {:.1f} s", format_count(report.added.size(), "take"), report.seconds)});
   table.add({"skipped", format_count(report.skipped.size(), "take") + " that were there already"});
   table.add({"rejected", format_count(report.rejected.size(), "input")});
   if (stats.takes > 0) {
@@ -91,12 +91,12 @@ void IngestCommand::setup(CLI::App& app) {
   app.add_option_function<std::string>(
          "--fidelity",
          [](const std::string& text) {
-           if (text != "preview") refuse_fidelity("Fidelity \"" + printable(text) + "\"");
+           if (text != "preview") refuse_fidelity("fidelity \"" + printable(text) + "\"");
          },
          "How faithful the takes are stored: preview, the only one yet")
       ->type_name("TIER");
   app.add_option_function<std::string>(
-         "--bound-mm", [](const std::string&) { refuse_fidelity("A bound of one's own"); },
+         "--bound-mm", [](const std::string&) { refuse_fidelity("a bound of one's own"); },
          "Not available yet")
       ->type_name("X")
       ->group("");
@@ -119,15 +119,14 @@ void IngestCommand::setup(CLI::App& app) {
 
 void IngestCommand::check() {
   for (const std::string& path : paths_) {
-    if (path.empty()) throw Error(ErrorCode::usage, "PATH is empty.");
+    if (path.empty()) throw Error(ErrorCode::usage, "PATH is empty");
     if (path == "-") {
-      throw Error(
-          ErrorCode::usage,
-          "PATH takes files and folders: a take is named by its file, which stdin has not.");
+      throw Error(ErrorCode::usage,
+                  "PATH takes files and folders: a take is named by its file, which stdin has not");
     }
     options_.paths.emplace_back(path);
   }
-  if (metadata_ == "-") throw Error(ErrorCode::usage, "--metadata takes a file, not stdin.");
+  if (metadata_ == "-") throw Error(ErrorCode::usage, "--metadata takes a file, not stdin");
   if (!metadata_.empty()) options_.metadata = metadata_;
 }
 

@@ -34,7 +34,7 @@ InterruptionGuard::~InterruptionGuard() { install(SIG_DFL, 0); }
 bool InterruptionGuard::requested() { return signal_seen != 0; }
 
 void InterruptionGuard::check() {
-  if (requested()) throw Error(ErrorCode::interrupted, "Interrupted.");
+  if (requested()) throw Error(ErrorCode::interrupted, "interrupted");
 }
 
 }  // namespace reprise::cli

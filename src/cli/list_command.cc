@@ -78,7 +78,7 @@ ClipKind parse_kind(const std::string& text) {
     if (text == clip_kind_name(kind)) return kind;
   }
   throw Error(ErrorCode::usage,
-              "--kind takes primary, repeated or unique, not \"" + printable(text) + "\".");
+              "--kind takes primary, repeated or unique, not \"" + printable(text) + "\"");
 }
 
 }  // namespace
@@ -103,12 +103,12 @@ void ListCommand::setup(CLI::App& app) {
 
 void ListCommand::check() {
   if (clips_ && skeletons_) {
-    throw Error(ErrorCode::usage, "--clips and --skeletons exclude each other.");
+    throw Error(ErrorCode::usage, "--clips and --skeletons exclude each other");
   }
   const bool filtered = !filter_.take.empty() || !filter_.subject.empty() ||
                         !filter_.text.empty() || filter_.kind.has_value();
   if (skeletons_ && filtered) {
-    throw Error(ErrorCode::usage, "The filters are for takes and clips, not for --skeletons.");
+    throw Error(ErrorCode::usage, "the filters are for takes and clips, not for --skeletons");
   }
 }
 

@@ -43,8 +43,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
 Error usage_error(const std::string& what, const std::string& wrong,
                   const std::vector<std::string>& known, const std::string& help) {
   const auto suggestion = suggest(wrong, known);
-  return Error(ErrorCode::usage, what + " \"" + printable(restored_argument(wrong)) + "\".", {},
-               suggestion ? "Did you mean " + *suggestion + "?" : "See " + help + ".");
+  return Error(ErrorCode::usage, what + " \"" + printable(restored_argument(wrong)) + "\"", {},
+               suggestion ? "did you mean " + *suggestion + "?" : "see " + help);
 }
 
 /// What is wrong with the arguments, in a sentence that helps.
@@ -57,18 +57,17 @@ Error explain(const CLI::ParseError& error, const CLI::App& app) {
   for (const std::string& argument : rest) {
     if (argument.size() > 1 && argument.front() == '-' && argument != "--") {
       const std::string name = argument.substr(0, argument.find('='));
-      return usage_error("Unknown option", name, option_names(command), help);
+      return usage_error("unknown option", name, option_names(command), help);
     }
   }
   if (chosen.empty()) {
-    if (rest.empty())
-      return Error(ErrorCode::usage, "A command is missing.", {}, "See " + help + ".");
-    return usage_error("Unknown command", rest.front(), command_names(app), help);
+    if (rest.empty()) return Error(ErrorCode::usage, "a command is missing", {}, "see " + help);
+    return usage_error("unknown command", rest.front(), command_names(app), help);
   }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !rest.empty()) {
-    return usage_error("Unexpected argument", rest.front(), {}, help);
+    return usage_error("unexpected argument", rest.front(), {}, help);
   }
-  return Error(ErrorCode::usage, std::string(error.what()) + ".", {}, "See " + help + ".");
+  return Error(ErrorCode::usage, std::string(error.what()), {}, "see " + help);
 }
 
 /// Parses, checks and runs. Throws Error.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "cli/json_output.h"
 #include "cli/text.h"
 #include "reprise/error.h"
 
@@ -85,11 +86,18 @@ Interval<double> parse_time_interval(std::string_view option, std::string_view t
   return parse_interval<double>(option, text, greatest_time);
 }
 
+MotionFormat parse_motion_format(std::string_view text) {
+  for (const MotionFormat format : {MotionFormat::bvh, MotionFormat::asf_amc}) {
+    if (text == format_name(format)) return format;
+  }
+  refuse("--format", text, "bvh or amc");
+}
+
 FrameRange frames_of(const Interval<long>& interval, FrameRange whole) {
   const FrameRange range{interval.begin.value_or(whole.begin), interval.end.value_or(whole.end)};
   if (range.begin < whole.begin || range.end > whole.end || range.begin >= range.end) {
     throw Error(ErrorCode::failed,
-                fmt::format("Frames {}:{} are not within {}:{}, which is what there is.",
+                fmt::format("frames {}:{} are not within {}:{}, which is what there is",
                             range.begin, range.end, whole.begin, whole.end));
   }
   return range;
@@ -123,8 +131,8 @@ CLI::Option* add_archive(CLI::App& app, std::filesystem::path& target) {
             if (text.empty()) refuse("ARCHIVE", text, "a path");
             if (text == "-") {
               throw Error(ErrorCode::usage,
-                          "An archive cannot come from stdin or go to stdout: it is read and "
-                          "written in places.");
+                          "an archive cannot come from stdin or go to stdout: it is read and "
+                          "written in places");
             }
             target = text;
           },

@@ -32,7 +32,10 @@ struct Interval {
 Interval<long> parse_frame_interval(std::string_view option, std::string_view text);
 Interval<double> parse_time_interval(std::string_view option, std::string_view text);
 
-/// The frames of a take of `frames` at `frame_rate` whose times are in the interval. Sides that are
+/// "bvh" or "amc". Throws Error (usage).
+MotionFormat parse_motion_format(std::string_view text);
+
+/// The frames in the interval, or those whose times at `frame_rate` are in it. Sides that are
 /// left out are those of `whole`. Throws Error (failed) where the result is empty or goes beyond
 /// `whole`.
 FrameRange frames_of(const Interval<long>& interval, FrameRange whole);

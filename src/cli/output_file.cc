@@ -22,7 +22,7 @@ namespace {
 [[noreturn]] void fail(const fs::path& path, std::string_view what, int number) {
   const bool full = number == ENOSPC || number == EDQUOT;
   throw Error(full ? ErrorCode::limit : ErrorCode::failed,
-              fmt::format("{}: {}.", what, std::strerror(number)), {path.string(), 0});
+              fmt::format("{}: {}", what, std::strerror(number)), {path.string(), 0});
 }
 
 /// A new file beside the one meant. It is gone when this ends, unless it was renamed.
@@ -31,7 +31,7 @@ class TemporaryFile {
   explicit TemporaryFile(const fs::path& target) : target_(target) {
     path_ = (target.parent_path() / ".reprise-XXXXXX").string();
     descriptor_ = mkostemp(path_.data(), O_CLOEXEC);
-    if (descriptor_ < 0) fail(target_, "The file cannot be created", errno);
+    if (descriptor_ < 0) fail(target_, "the file cannot be created", errno);
   }
   ~TemporaryFile() {
     if (descriptor_ >= 0) close(descriptor_);
@@ -44,7 +44,7 @@ class TemporaryFile {
     while (!content.empty()) {
       const ssize_t written = ::write(descriptor_, content.data(), content.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(target_, "The file cannot be written", errno);
+      if (written < 0) fail(target_, "the file cannot be written", errno);
       content.remove_prefix(static_cast<std::size_t>(written));
     }
   }
@@ -53,10 +53,10 @@ class TemporaryFile {
     // mkostemp makes files for the owner alone; what comes out is as any other new file.
     const mode_t mask = umask(0);
     umask(mask);
-    if (fchmod(descriptor_, 0666 & ~mask) != 0) fail(target_, "The file cannot be written", errno);
-    if (fsync(descriptor_) != 0) fail(target_, "The file cannot be written", errno);
+    if (fchmod(descriptor_, 0666 & ~mask) != 0) fail(target_, "the file cannot be written", errno);
+    if (fsync(descriptor_) != 0) fail(target_, "the file cannot be written", errno);
     const int closed = close(std::exchange(descriptor_, -1));
-    if (closed != 0) fail(target_, "The file cannot be written", errno);
+    if (closed != 0) fail(target_, "the file cannot be written", errno);
     rename_to_target(overwrite);
     renamed_ = true;
   }
@@ -69,11 +69,11 @@ class TemporaryFile {
       if (result == 0) return;
       if (errno == EEXIST) refuse_existing(target_);
       // Some file systems cannot do this in one step.
-      if (errno != EINVAL && errno != ENOSYS) fail(target_, "The file cannot be renamed", errno);
+      if (errno != EINVAL && errno != ENOSYS) fail(target_, "the file cannot be renamed", errno);
       if (fs::exists(fs::symlink_status(target_))) refuse_existing(target_);
     }
     if (rename(path_.c_str(), target_.c_str()) != 0) {
-      fail(target_, "The file cannot be renamed", errno);
+      fail(target_, "the file cannot be renamed", errno);
     }
   }
 
@@ -88,8 +88,8 @@ class TemporaryFile {
 fs::path path_inside(const fs::path& folder, std::string_view name) {
   const auto refuse = [&] {
     throw Error(ErrorCode::damaged,
-                "The archive holds a name that does not lead into the folder of the output: \"" +
-                    std::string(name) + "\".");
+                "the archive holds a name that does not lead into the folder of the output: \"" +
+                    std::string(name) + "\"");
   };
   if (name.empty() || name.find('\0') != std::string_view::npos) refuse();
   std::string_view rest = name;
@@ -108,10 +108,9 @@ void refuse_links_below(const fs::path& folder, std::string_view name) {
   for (const fs::path& component : fs::path(name).parent_path()) {
     step /= component;
     if (fs::is_symlink(fs::symlink_status(step))) {
-      throw Error(
-          ErrorCode::failed,
-          "A symbolic link stands where a folder of the output belongs; it is not followed.",
-          {step.string(), 0});
+      throw Error(ErrorCode::failed,
+                  "a symbolic link stands where a folder of the output belongs; it is not followed",
+                  {step.string(), 0});
     }
   }
 }
@@ -119,7 +118,7 @@ void refuse_links_below(const fs::path& folder, std::string_view name) {
 void write_file_atomically(const fs::path& path, std::string_view content, bool overwrite) {
   const fs::file_status status = fs::status(path);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(ErrorCode::failed, "This is not a regular file, and is not replaced.",
+    throw Error(ErrorCode::failed, "this is not a regular file, and is not replaced",
                 {path.string(), 0});
   }
   TemporaryFile file(path);
@@ -139,8 +138,8 @@ bool file_has_content(const fs::path& path, std::string_view content) {
 }
 
 void refuse_existing(const fs::path& path) {
-  throw Error(ErrorCode::failed, "The file exists already.", {path.string(), 0},
-              "--overwrite replaces it.");
+  throw Error(ErrorCode::failed, "the file exists already", {path.string(), 0},
+              "--overwrite replaces it");
 }
 
 }  // namespace reprise::cli

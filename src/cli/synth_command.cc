@@ -16,13 +16,6 @@ constexpr std::uint64_t most_subjects = 10000;
 constexpr double least_seconds = 1;
 constexpr double most_seconds = 3600;
 
-MotionFormat parse_format(const std::string& text) {
-  for (const MotionFormat format : {MotionFormat::bvh, MotionFormat::asf_amc}) {
-    if (text == format_name(format)) return format;
-  }
-  throw Error(ErrorCode::usage, "--format takes bvh or amc, not \"" + printable(text) + "\".");
-}
-
 }  // namespace
 
 void SynthCommand::setup(CLI::App& app) {
@@ -35,7 +28,8 @@ void SynthCommand::setup(CLI::App& app) {
   add_whole_number(app, "--seed", options_.seed, 0, std::numeric_limits<std::uint64_t>::max(),
                    "The same seed gives the same library (default 1)");
   app.add_option_function<std::string>(
-         "--format", [this](const std::string& text) { options_.format = parse_format(text); },
+         "--format",
+         [this](const std::string& text) { options_.format = parse_motion_format(text); },
          "bvh (default) or amc")
       ->type_name("FORMAT");
   app.add_flag("--overwrite", overwrite_, "Replace files that exist");

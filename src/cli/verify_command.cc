@@ -85,8 +85,8 @@ ExitCode VerifyCommand::run(Console& console) {
   console.document(document_of(report));
   if (report.ok) return exit_done;
   const ErrorCode code = verdict(report);
-  console.complaint(code == ErrorCode::damaged ? "reprise: The archive is damaged."
-                                               : "reprise: Some takes are outside their fidelity.");
+  console.complaint(code == ErrorCode::damaged ? "reprise: the archive is damaged"
+                                               : "reprise: some takes are outside their fidelity");
   return static_cast<int>(code);
 }
 
