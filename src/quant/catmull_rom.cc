@@ -10,43 +10,37 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int most_levels = 12;
+/// Enough for half a second at 500 frames a second.
+constexpr int most_levels = 8;
 
-/// Numbers of one level: the even ones are coarser knots, the odd ones details.
+/// Numbers of one level of one trajectory: the even ones are coarser knots, the odd ones details.
 class Level {
  public:
-  Level(MatrixXd& matrix, Index stride) : matrix_(matrix), stride_(stride) {}
+  Level(double* values, Index frames, Index stride)
+      : values_(values), stride_(stride), count_((frames + stride - 1) / stride) {}
 
-  Index count() const { return (matrix_.rows() + stride_ - 1) / stride_; }
-  auto at(Index i) { return matrix_.row(i * stride_); }
+  Index count() const { return count_; }
+  double& at(Index i) { return values_[i * stride_]; }
 
   /// Half-way between the knots around odd `i`; past the ends the line through the last two goes
   /// on.
-  Eigen::RowVectorXd midpoint(Index i) {
-    const Index last = (count() - 1) / 2 * 2;
-    if (i + 1 > last) {
-      if (i < 3) return at(i - 1);
-      return 1.5 * at(i - 1) - 0.5 * at(i - 3);
-    }
-    Eigen::RowVectorXd left = 2 * at(i - 1) - at(i + 1);
-    Eigen::RowVectorXd right = 2 * at(i + 1) - at(i - 1);
-    if (i >= 3) left = at(i - 3);
-    if (i + 3 <= last) right = at(i + 3);
+  double midpoint(Index i) {
+    const Index last = (count_ - 1) / 2 * 2;
+    if (i + 1 > last) return i < 3 ? at(i - 1) : 1.5 * at(i - 1) - 0.5 * at(i - 3);
+    const double left = i >= 3 ? at(i - 3) : 2 * at(i - 1) - at(i + 1);
+    const double right = i + 3 <= last ? at(i + 3) : 2 * at(i + 1) - at(i - 1);
     return (9.0 / 16) * (at(i - 1) + at(i + 1)) - (1.0 / 16) * (left + right);
   }
 
   /// What the details around even `i` say of the coarser knot.
-  Eigen::RowVectorXd correction(Index i) {
-    const Index count_here = count();
-    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(matrix_.cols());
-    if (i >= 1) sum += at(i - 1);
-    if (i + 1 < count_here) sum += at(i + 1);
-    return 0.25 * sum;
+  double correction(Index i) {
+    return 0.25 * ((i >= 1 ? at(i - 1) : 0.0) + (i + 1 < count_ ? at(i + 1) : 0.0));
   }
 
  private:
-  MatrixXd& matrix_;
+  double* values_;
   Index stride_;
+  Index count_;
 };
 
 /// Norm of what a unit detail of each level, and a unit coarsest knot, adds to a long trajectory.
@@ -56,18 +50,22 @@ struct KnotNorms {
 };
 
 void lift(MatrixXd& m, int levels) {
-  for (int l = 0; l < levels; ++l) {
-    Level level(m, Index{1} << l);
-    for (Index i = 1; i < level.count(); i += 2) level.at(i) -= level.midpoint(i);
-    for (Index i = 0; i < level.count(); i += 2) level.at(i) += level.correction(i);
+  for (Index column = 0; column < m.cols(); ++column) {
+    for (int l = 0; l < levels; ++l) {
+      Level level(m.col(column).data(), m.rows(), Index{1} << l);
+      for (Index i = 1; i < level.count(); i += 2) level.at(i) -= level.midpoint(i);
+      for (Index i = 0; i < level.count(); i += 2) level.at(i) += level.correction(i);
+    }
   }
 }
 
 void unlift(MatrixXd& m, int levels) {
-  for (int l = levels - 1; l >= 0; --l) {
-    Level level(m, Index{1} << l);
-    for (Index i = 0; i < level.count(); i += 2) level.at(i) -= level.correction(i);
-    for (Index i = 1; i < level.count(); i += 2) level.at(i) += level.midpoint(i);
+  for (Index column = 0; column < m.cols(); ++column) {
+    for (int l = levels - 1; l >= 0; --l) {
+      Level level(m.col(column).data(), m.rows(), Index{1} << l);
+      for (Index i = 0; i < level.count(); i += 2) level.at(i) -= level.correction(i);
+      for (Index i = 1; i < level.count(); i += 2) level.at(i) += level.midpoint(i);
+    }
   }
 }
 
