@@ -5,15 +5,7 @@ set(prefix ${WORK_DIR}/prefix)
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
 
-function(run)
-  execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${WORK_DIR}
-                  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE messages)
-  if(NOT result EQUAL 0)
-    list(JOIN ARGV " " command)
-    message(FATAL_ERROR "${command}\nended with ${result}:\n${output}${messages}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/consumer.cmake)
 
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
 
@@ -24,14 +16,7 @@ if(NOT in_source STREQUAL installed)
   message(FATAL_ERROR "include/ holds\n${in_source}\nbut installed are\n${installed}")
 endif()
 
-file(READ ${SOURCE_DIR}/README.md readme)
-if(NOT readme MATCHES "```cpp\n([^`]*)```")
-  message(FATAL_ERROR "README.md has no C++ example")
-endif()
-set(example "${CMAKE_MATCH_1}")
-file(COPY ${SOURCE_DIR}/tests/install/consumer DESTINATION ${WORK_DIR})
-file(WRITE ${WORK_DIR}/consumer/main.cc "${example}")
-
+write_consumer()
 run(${CMAKE_COMMAND} -S ${WORK_DIR}/consumer -B ${WORK_DIR}/build -G ${GENERATOR}
     -D CMAKE_BUILD_TYPE=Debug -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${CXX_COMPILER}
     "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}")
