@@ -9,7 +9,8 @@
 namespace reprise {
 namespace {
 
-constexpr double default_frame_rate = 120.0;  // CMU's, which most AMC files come from
+constexpr double default_frame_rate = 120.0;           // CMU's, which most AMC files come from
+constexpr long most_frame_number = 1'000'000'000'000;  // far from where sums of it overflow
 
 class AmcReader {
  public:
@@ -45,6 +46,9 @@ class AmcReader {
 
  private:
   void begin_frame(long number) {
+    if (number > most_frame_number) {
+      lines_.reject("frame numbers end at " + std::to_string(most_frame_number));
+    }
     if (frames_ == 0) {
       take_->layout.first_frame_number = number;
       take_->layout.amc_header = std::string(text_.substr(0, lines_.line_start()));
@@ -65,7 +69,21 @@ class AmcReader {
       lines_.reject("the frame before this line leaves out the bone " +
                     in_quotes(skeleton_.joints[take_->layout.amc_joints[next_bone_]].name));
     }
+    if (frames_ == 1) check_share();
     values_.insert(values_.end(), row_.begin(), row_.end());
+  }
+
+  /// Frames take memory for all channels of the skeleton, so they have to give a share of them.
+  void check_share() const {
+    std::size_t given = 0;
+    for (const int joint : take_->layout.amc_joints)
+      given += skeleton_.joints[joint].channels.size();
+    if (given * InputLimits::channels_per_value < row_.size()) {
+      lines_.reject("the first frame gives " + std::to_string(given) + " of its skeleton's " +
+                        std::to_string(row_.size()) + " values, less than one in " +
+                        std::to_string(InputLimits::channels_per_value),
+                    "this may be another skeleton's");
+    }
   }
 
   void bone(std::string_view word, std::string_view rest) {
@@ -90,7 +108,7 @@ class AmcReader {
     std::size_t c = 0;
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++c) {
       const std::optional<double> value = to_number(word);
-      if (!value) lines_.reject("this is not a number: " + in_quotes(word));
+      if (!value) lines_.reject(why_no_number(word));
       if (c < joint.channels.size()) {
         row_[joint.first_channel + c] = is_rotation(joint.channels[c]) ? *value * scale : *value;
       }

@@ -73,7 +73,7 @@ class AsfReader {
   double number(std::string_view& rest, const char* what) {
     const std::string_view word = next_word(rest);
     const std::optional<double> value = to_number(word);
-    if (!value) lines_.reject(std::string(what) + " needs a number, not " + in_quotes(word));
+    if (!value) lines_.reject(std::string(what) + " needs a number; " + why_no_number(word));
     return *value;
   }
 
@@ -87,6 +87,10 @@ class AsfReader {
     if (equal_ignoring_case(word, "length")) {
       const double length = number(rest, "'length'");
       if (!(length > 0)) lines_.reject("'length' must be greater than 0");
+      if (length * InputLimits::magnitude < 1) {
+        lines_.reject("a 'length' of " + std::to_string(length) + " cannot be meant",
+                      "most files have 0.45 or 1");
+      }
       skeleton_.millimetres_per_unit = millimetres_per_inch / length;
     } else if (equal_ignoring_case(word, "angle")) {
       const std::string_view unit = next_word(rest);
@@ -193,20 +197,18 @@ class AsfReader {
     return found->second;
   }
 
-  /// The matrix of three angles, the first axis of the order turning first.
+  /// The matrix of three angles, the first axis of the order turning first. The angles are given
+  /// for x, y and z whatever the order.
   Eigen::Matrix3d matrix_of(std::size_t joint) const {
     const auto turns = turns_.find(joint);
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
     if (turns == turns_.end()) return matrix;
     const double scale = radians_ ? 1.0 : std::numbers::pi / 180.0;
     for (const int axis : orders_[joint]) {
-      matrix = axis_rotation(axis, turns->second[axis_place(joint, axis)] * scale) * matrix;
+      matrix = axis_rotation(axis, turns->second[axis] * scale) * matrix;
     }
     return matrix;
   }
-
-  /// Angles are given for x, y and z whatever the order.
-  static int axis_place(std::size_t, int axis) { return axis; }
 
   Skeleton finish() {
     if (in_bone_) lines_.reject("the file ends inside of a bone");

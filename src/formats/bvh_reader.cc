@@ -40,6 +40,9 @@ class HierarchyReader {
         return std::move(skeleton_);
       } else {
         statement(word, rest);
+        for (std::string_view more = next_word(rest); !more.empty(); more = next_word(rest)) {
+          statement(more, rest);
+        }
       }
     }
     if (!hierarchy) lines_.reject("the file is empty");
@@ -49,18 +52,16 @@ class HierarchyReader {
   }
 
  private:
-  void statement(std::string_view word, std::string_view rest) {
+  /// One statement; takes its words off the front of `rest`, so that others may follow on the line.
+  void statement(std::string_view word, std::string_view& rest) {
     if (equal_ignoring_case(word, "ROOT") || equal_ignoring_case(word, "JOINT")) {
-      // A brace may stand behind the name.
-      begin_joint(trimmed(rest), false);
+      begin_joint(take_name(rest), false);
     } else if (equal_ignoring_case(word, "End")) {
-      begin_joint(trimmed(rest), true);
+      begin_joint(take_name(rest), true);
     } else if (word == "{") {
       open_brace();
-      more(rest);
     } else if (word == "}") {
       close_brace();
-      more(rest);
     } else if (equal_ignoring_case(word, "OFFSET")) {
       offset(rest);
     } else if (equal_ignoring_case(word, "CHANNELS")) {
@@ -70,17 +71,15 @@ class HierarchyReader {
     }
   }
 
-  void more(std::string_view rest) {
-    const std::string_view word = next_word(rest);
-    if (!word.empty()) statement(word, rest);
+  /// A name is all up to the line's end or a brace, which stays in `rest`.
+  static std::string_view take_name(std::string_view& rest) {
+    const std::size_t end = std::min(rest.find('{'), rest.size());
+    const std::string_view name = trimmed(rest.substr(0, end));
+    rest.remove_prefix(end);
+    return name;
   }
 
   void begin_joint(std::string_view name, bool end_site) {
-    bool brace = false;
-    if (!name.empty() && name.back() == '{') {
-      name = trimmed(name.substr(0, name.size() - 1));
-      brace = true;
-    }
     if (waiting_) lines_.reject("a joint begins before the brace of the one above it");
     if (open_.empty() && !skeleton_.joints.empty()) lines_.reject("there is a second ROOT");
     if (open_.empty() && end_site) lines_.reject("an end site stands outside of every joint");
@@ -100,7 +99,6 @@ class HierarchyReader {
     joint.end_site = end_site;
     skeleton_.joints.push_back(std::move(joint));
     waiting_ = true;
-    if (brace) open_brace();
   }
 
   void open_brace() {
@@ -123,18 +121,17 @@ class HierarchyReader {
     return skeleton_.joints[open_.back()];
   }
 
-  void offset(std::string_view rest) {
+  void offset(std::string_view& rest) {
     Joint& joint = current();
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view word = next_word(rest);
       const std::optional<double> value = to_number(word);
-      if (!value) lines_.reject("OFFSET needs three numbers, not " + in_quotes(word));
+      if (!value) lines_.reject("OFFSET needs three numbers; " + why_no_number(word));
       joint.offset[axis] = *value;
     }
-    more(rest);
   }
 
-  void channels(std::string_view rest) {
+  void channels(std::string_view& rest) {
     Joint& joint = current();
     if (joint.end_site) lines_.reject("an end site has no channels");
     if (!joint.channels.empty()) lines_.reject("a joint has CHANNELS twice");
@@ -165,7 +162,6 @@ class HierarchyReader {
     if (skeleton_.channel_count > static_cast<int>(InputLimits::channels)) {
       lines_.reject("there are more than " + std::to_string(InputLimits::channels) + " channels");
     }
-    more(rest);
   }
 
   void finish(std::string_view source) {
@@ -236,14 +232,15 @@ void read_frames(TextLines& lines, long frames, Take& take) {
     std::size_t in_row = 0;
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
       const std::optional<double> value = to_number(word);
-      if (!value) lines.reject("this is not a number: " + in_quotes(word));
+      if (!value) lines.reject(why_no_number(word));
       values.push_back(*value);
       ++in_row;
     }
     if (in_row == 0) continue;
     if (in_row != width) {
       lines.reject("a frame has " + std::to_string(in_row) + " numbers where the hierarchy has " +
-                   std::to_string(width) + " channels");
+                       std::to_string(width) + " channels",
+                   "a frame is one line");
     }
     ++rows;
   }

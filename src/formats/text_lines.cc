@@ -15,6 +15,17 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; 
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
+/// A whole word as any finite number.
+std::optional<double> finite_number(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = fast_float::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
 }  // namespace
 
 bool TextLines::next(std::string_view& line) {
@@ -62,13 +73,20 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
 
 std::optional<double> to_number(std::string_view word) {
   if (word.size() > InputLimits::number_bytes) return std::nullopt;
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = fast_float::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-    return std::nullopt;
+  const std::optional<double> value = finite_number(word);
+  return value && std::abs(*value) <= InputLimits::magnitude ? value : std::nullopt;
+}
+
+std::string why_no_number(std::string_view word) {
+  if (word.empty()) return "a number is missing";
+  if (word.size() > InputLimits::number_bytes) {
+    return "a number is longer than " + std::to_string(InputLimits::number_bytes) +
+           " bytes: " + in_quotes(word);
   }
-  return value;
+  if (finite_number(word)) {
+    return "a number is beyond " + std::to_string(InputLimits::magnitude) + ": " + in_quotes(word);
+  }
+  return "this is not a number: " + in_quotes(word);
 }
 
 std::optional<long> to_count(std::string_view word) {

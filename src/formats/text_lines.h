@@ -14,7 +14,9 @@ namespace reprise {
 /// Goes through a text line by line; lines end in LF, CRLF or CR.
 class TextLines {
  public:
-  TextLines(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+  /// A byte order mark of UTF-8 at the front is passed over.
+  TextLines(std::string_view text, std::string file)
+      : text_(text), file_(std::move(file)), position_(text.starts_with("\xEF\xBB\xBF") ? 3 : 0) {}
 
   /// The next line without its end, or false at the end of the text.
   bool next(std::string_view& line);
@@ -31,7 +33,7 @@ class TextLines {
  private:
   std::string_view text_;
   std::string file_;
-  std::size_t position_ = 0, line_start_ = 0;
+  std::size_t position_, line_start_ = 0;
   std::size_t number_ = 0;
 };
 
@@ -41,10 +43,14 @@ std::string_view next_word(std::string_view& line);
 std::string_view trimmed(std::string_view text);
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
-/// A whole word as a finite number: decimal, with or without exponent. None for anything else.
+/// A whole word as a number within the limits: decimal, with or without exponent. None for anything
+/// else.
 std::optional<double> to_number(std::string_view word);
 /// A whole word as a count.
 std::optional<long> to_count(std::string_view word);
+
+/// Why `to_number` did not take a word, as a sentence that quotes it.
+std::string why_no_number(std::string_view word);
 
 /// A word for an error message: in quotes, cut where it is long, without control characters.
 std::string in_quotes(std::string_view word);

@@ -18,6 +18,7 @@ constexpr double floor_percentile = 5.0;
 constexpr double half_window_s = 0.025;
 constexpr Index least_frames = 8;
 constexpr int up_axis = 1;
+constexpr double rounding = 1e-12;
 
 /// The p-th percentile of sorted numbers, between neighbours in a straight line.
 template <class Number>
@@ -47,7 +48,8 @@ double horizontal_speed(const PositionMatrix& positions, int joint, Index f, Ind
 double d_percent(const PositionMatrix& original, const PositionMatrix& decoded, Index frames) {
   const auto a = original.topRows(frames);
   const double moved = (a.rowwise() - a.colwise().mean()).norm();
-  return moved > 0 ? 100.0 * (a - decoded.topRows(frames)).norm() / moved : 0.0;
+  // The mean of equal numbers is off by some rounding, which is no motion.
+  return moved > rounding * a.norm() ? 100.0 * (a - decoded.topRows(frames)).norm() / moved : 0.0;
 }
 
 }  // namespace
@@ -96,7 +98,8 @@ std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatr
     if (is_foot(skeleton.joints[j].name)) feet.push_back(static_cast<int>(j));
   }
   if (feet.empty() || frames < least_frames) return std::nullopt;
-  const Index h = std::max<Index>(1, std::lround(half_window_s * frame_rate));
+  // Halves go to the even number.
+  const Index h = std::max<Index>(1, std::lrint(half_window_s * frame_rate));
   std::vector<double> heights;
   for (const int joint : feet) {
     for (Index f = 0; f < frames; ++f) heights.push_back(original(f, 3 * joint + up_axis));

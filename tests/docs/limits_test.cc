@@ -33,8 +33,10 @@ TEST(LimitsDocument, StatesTheLimitsOfTheReaders) {
       {"joints", InputLimits::joints},
       {"channels", InputLimits::channels},
       {"depth", InputLimits::depth},
+      {"channels_per_value", InputLimits::channels_per_value},
       {"name_bytes", InputLimits::name_bytes},
       {"number_bytes", InputLimits::number_bytes},
+      {"magnitude", InputLimits::magnitude},
       {"line_bytes", InputLimits::line_bytes},
       {"file_bytes", InputLimits::file_bytes},
   };

@@ -48,7 +48,12 @@ TEST(Facts, OrderOfRotationsChangesWhereJointsAre) {
       1.0);
 }
 
-TEST(Facts, FrameRateIsRead) { EXPECT_NEAR(sample().frame_rate, 120.0, 0.001); }
+TEST(Facts, FrameRateIsRead) {
+  EXPECT_NEAR(sample().frame_rate, 120.0, 0.001);
+  EXPECT_FALSE(sample().frame_rate_assumed);
+  const Take slow = read_bvh(replaced(plain_bvh(), "0.0083333", "0.04"), "s.bvh");
+  EXPECT_NEAR(slow.frame_rate, 25.0, 1e-9);
+}
 
 TEST(Facts, AmcHasNoFrameRate) {
   const auto skeleton = std::make_shared<Skeleton>(read_asf(plain_asf(), "s.asf"));
@@ -84,6 +89,27 @@ TEST(Facts, BonesEndWhereDirectionAndLengthSay) {
   EXPECT_NEAR(places(0, 4), (2 - 0.94 * 7.5) * mm, 1e-9);
 }
 
+TEST(Facts, DegreesAndUnitsNeedNotBeSaid) {
+  const auto skeleton = std::make_shared<Skeleton>(read_asf(plain_asf(), "s.asf"));
+  const Take bare = read_amc(replaced(plain_amc(), ":DEGREES\n", ""), "s.amc", skeleton);
+  EXPECT_EQ(bare.channels, asf_sample().channels);
+  EXPECT_EQ(read_asf(odd_asf(), "s.asf").millimetres_per_unit, 25.4);
+}
+
+TEST(Facts, LimitsOfBonesGoOnOverLines) {
+  const Skeleton skeleton = read_asf(plain_asf(), "s.asf");
+  ASSERT_EQ(skeleton.joints.size(), 5u);
+  EXPECT_EQ(skeleton.joints[1].name, "femur");
+  EXPECT_EQ(skeleton.joints[1].channels.size(), 3u);
+}
+
+TEST(Facts, RootOfAnAsfStartsWhereItSays) {
+  const std::string turned = replaced(plain_asf(), "orientation 0 0 0", "orientation 0 0 90");
+  const Skeleton skeleton = read_asf(turned, "s.asf");
+  EXPECT_EQ(skeleton.joints[0].offset, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR((skeleton.joints[0].axis.col(0) - Eigen::Vector3d::UnitY()).norm(), 0, 1e-12);
+}
+
 TEST(Facts, FrameTimeKeepsItsText) {
   EXPECT_NE(write_motion(sample()).find("Frame Time: 0.0083333\n"), std::string::npos);
   const std::string exact = replaced(plain_bvh(), "0.0083333", "8.333333333e-3");
@@ -98,6 +124,26 @@ TEST(Facts, LineEndsNamesAndEmptyJoints) {
     EXPECT_EQ(take.skeleton->joints[1].name, "Left Up Leg");
     EXPECT_TRUE(take.skeleton->joints[2].end_site);
     EXPECT_EQ(take.skeleton->joints[3].name, "empty");
+  }
+}
+
+TEST(Facts, NamesMayRepeatAndStatementsShareALine) {
+  const Take take = read_bvh(odd_bvh(), "odd.bvh");
+  const auto& joints = take.skeleton->joints;
+  ASSERT_EQ(joints.size(), 4u);
+  EXPECT_EQ(joints[0].name, "a b");
+  EXPECT_EQ(joints[1].name, "twin");
+  EXPECT_TRUE(joints[2].end_site);
+  EXPECT_EQ(joints[3].name, "twin");
+  EXPECT_EQ(joints[3].parent, 0);
+  EXPECT_EQ(joints[0].offset, Eigen::Vector3d(0, 5, -0.25));
+  EXPECT_EQ(joints[3].rotation_order, (std::vector<int>{2, 1, 0}));
+  EXPECT_EQ(take.channels(1, 17), 18.5);
+}
+
+TEST(Facts, TheCountOfFramesHasToAgree) {
+  for (const char* count : {"Frames: 2", "Frames: 4", "Frames: 0"}) {
+    EXPECT_THROW(read_bvh(replaced(plain_bvh(), "Frames: 3", count), "s.bvh"), Error) << count;
   }
 }
 

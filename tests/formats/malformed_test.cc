@@ -55,8 +55,10 @@ const Malformed malformed_files[] = {
     {"row_with_overflow.bvh", "row_with_overflow.bvh", 20, "'1e999'"},
     {"row_with_hex.bvh", "row_with_hex.bvh", 20, "'0x10'"},
     {"row_with_comma.bvh", "row_with_comma.bvh", 20, "'1,5'"},
+    {"row_beyond_magnitude.bvh", "row_beyond_magnitude.bvh", 20, "beyond 1000000000: '1e300'"},
+    {"row_over_two_lines.bvh", "row_over_two_lines.bvh", 20, "5 numbers"},
     {"nul_byte.bvh", "nul_byte.bvh", 20, "NUL"},
-    {"long_number.bvh", "long_number.bvh", 20, "not a number"},
+    {"long_number.bvh", "long_number.bvh", 20, "longer than 64"},
     {"no_channels.bvh", "no_channels.bvh", 6, "channels"},
     {"binary.bvh", "binary.bvh", 1, "HIERARCHY"},
     {"amc_empty.amc", "amc_empty.amc", 1, "no frames"},
@@ -70,6 +72,10 @@ const Malformed malformed_files[] = {
     {"amc_value_not_a_number.amc", "amc_value_not_a_number.amc", 6, "'two'"},
     {"amc_frame_skipped.amc", "amc_frame_skipped.amc", 8, "frame 3"},
     {"amc_before_first_frame.amc", "amc_before_first_frame.amc", 4, "before the first frame"},
+    {"amc_number_beyond_magnitude.amc", "amc_number_beyond_magnitude.amc", 6, "beyond 1000000000"},
+    {"amc_frame_without_bones.amc", "amc_frame_without_bones.amc", 4, "0 of its skeleton's"},
+    {"amc_frame_number_huge.amc", "amc_frame_number_huge.amc", 4, "frame numbers end"},
+    {"asf_length_tiny.amc", "asf_length_tiny.asf", 5, "cannot be meant"},
     {"asf_empty.amc", "asf_empty.asf", 1, "order"},
     {"asf_without_sections.amc", "asf_without_sections.asf", 1, "section"},
     {"asf_bone_without_name.amc", "asf_bone_without_name.asf", 29, "no name"},
@@ -104,8 +110,8 @@ TEST_P(MalformedFile, IsRejectedWithItsLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MalformedFile, testing::ValuesIn(malformed_files),
-                         [](const auto& info) {
-                           std::string name = info.param.file;
+                         [](const auto& file) {
+                           std::string name = file.param.file;
                            for (char& c : name) c = c == '.' ? '_' : c;
                            return name;
                          });

@@ -58,6 +58,33 @@ inline std::string plain_amc() {
          "8\nroot 1.5 2 3 4 5 6.25\ntibia .5 1 2\nfemur -1 +2 3 # comment\n";
 }
 
+/// As a Windows editor may leave it: a byte order mark, empty lines, several statements on a line,
+/// words in any case, six channels on every joint, a name twice.
+inline std::string odd_bvh() {
+  return "\xEF\xBB\xBF\n\nhierarchy\r\nRoot  a b\t{ OFFSET .0 5. -.25 channels 6 XPosition "
+         "YPosition "
+         "ZPosition ZROTATION XRotation yrotation\r\n  joint twin { offset 0 0 0 Channels 6 "
+         "Xposition "
+         "Yposition Zposition Zrotation Xrotation Yrotation End Site { OFFSET 1E1 0 0 } }\r\n\r\n"
+         "\tJOINT twin\r\n{\r\nCHANNELS 6 Zrotation Yrotation Xrotation Zposition Yposition "
+         "Xposition\r\nOFFSET 0 0 0\r\n}\r\n}\r\n\r\nmotion\r\nFRAMES:2\r\nframe "
+         "time : 1.6667e-2\r\n\r\n1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18\r\n\r\n"
+         "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18.5\t \r\n\r\n";
+}
+
+/// Sections in another order, angles in radians, no length unit, words in any case.
+inline std::string odd_asf() {
+  return ":HIERARCHY_NOTE\nany\n:Root\naxis xyz\norder rz TY RX tz ry TX\n:bonedata\nBEGIN\nname "
+         "a\n"
+         "DOF RZ RX\naxis 0.5 0 -.25 YZX\nlength 1e+1\ndirection 0 0 1\nlimits (-inf inf)\n(-1 1)\n"
+         "bodymass 3\nEND\nbegin\nname b\ndirection 0 1 0\nend\n:units\nangle rad\n"
+         ":hierarchy\nbegin\nroot a # comment\na b\nend\n";
+}
+
+inline std::string odd_amc() {
+  return "# no keyword at all\n0\na 1 2\n\n1\na 3 4 # comment\n\n# comment\n2\na -5 1e-3\n";
+}
+
 inline std::vector<Sample> samples() {
   std::string radians = plain_amc();
   radians.replace(radians.find(":DEGREES"), 8, ":RADIANS");
@@ -68,7 +95,9 @@ inline std::vector<Sample> samples() {
       {"bvh without last line end", plain_bvh().substr(0, plain_bvh().size() - 1), ""},
       {"amc that leaves out a bone", plain_amc(), plain_asf()},
       {"amc with CRLF", with_line_ends(plain_amc(), "\r\n"), with_line_ends(plain_asf(), "\r\n")},
-      {"amc in radians", radians, plain_asf()}};
+      {"amc in radians", radians, plain_asf()},
+      {"odd bvh", odd_bvh(), ""},
+      {"odd amc", odd_amc(), odd_asf()}};
 }
 
 }  // namespace reprise

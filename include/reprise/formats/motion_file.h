@@ -16,8 +16,12 @@ struct InputLimits {
   static constexpr std::size_t joints = 4096;
   static constexpr std::size_t channels = 16384;
   static constexpr std::size_t depth = 256;
+  /// Channels of an AMC's skeleton for each number that a frame gives.
+  static constexpr std::size_t channels_per_value = 16;
   static constexpr std::size_t name_bytes = 1024;
   static constexpr std::size_t number_bytes = 64;
+  /// Of a number, in the file's units or degrees; far beyond it sums are no longer finite.
+  static constexpr std::size_t magnitude = 1'000'000'000;
   static constexpr std::size_t line_bytes = 16u << 20;
   static constexpr std::size_t file_bytes = std::size_t{2} << 30;
 };
