@@ -30,7 +30,7 @@ TEST_F(Crash, KilledWritersLeaveWholeBatches) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) write_until_killed(path_);
-    usleep(static_cast<useconds_t>(3000 + 4000 * run));
+    usleep(static_cast<useconds_t>(3000 + 20000 * run));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     // Before the first commit there is no file, or an empty one.
