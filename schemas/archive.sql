@@ -14,7 +14,7 @@ CREATE TABLE subjects(id INTEGER PRIMARY KEY, name TEXT NOT NULL);
 -- Axes, and what else the coder needs before a take can be decoded.
 CREATE TABLE spaces(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES skeletons, base INTEGER NOT NULL, data BLOB NOT NULL, digest BLOB NOT NULL);
 
-CREATE TABLE takes(id INTEGER PRIMARY KEY, leaf TEXT NOT NULL, folder TEXT NOT NULL, subject INTEGER NOT NULL, proportions INTEGER NOT NULL REFERENCES proportions, space INTEGER NOT NULL REFERENCES spaces, frames INTEGER NOT NULL, tier INTEGER NOT NULL, limit_mm REAL NOT NULL, text_bytes INTEGER NOT NULL, mean_um INTEGER NOT NULL, rms_um INTEGER NOT NULL, p99_um INTEGER NOT NULL, max_um INTEGER NOT NULL, sketch BLOB NOT NULL, spent BLOB NOT NULL, source BLOB NOT NULL, motion BLOB NOT NULL, digest BLOB NOT NULL);
+CREATE TABLE takes(id INTEGER PRIMARY KEY, leaf TEXT NOT NULL, folder TEXT NOT NULL, subject INTEGER NOT NULL, proportions INTEGER NOT NULL REFERENCES proportions, space INTEGER NOT NULL REFERENCES spaces, frames INTEGER NOT NULL, tier INTEGER NOT NULL, limit_mm REAL NOT NULL, text_bytes INTEGER NOT NULL, mean_um INTEGER NOT NULL, rms_um INTEGER NOT NULL, p99_um INTEGER NOT NULL, max_um INTEGER NOT NULL, sketch BLOB NOT NULL, spent BLOB NOT NULL, source BLOB NOT NULL, layers BLOB NOT NULL, digest BLOB NOT NULL);
 CREATE UNIQUE INDEX take_names ON takes(leaf, folder);
 
 CREATE TABLE texts(take INTEGER PRIMARY KEY REFERENCES takes, description TEXT NOT NULL, tags TEXT NOT NULL);
@@ -22,4 +22,5 @@ CREATE TABLE texts(take INTEGER PRIMARY KEY REFERENCES takes, description TEXT N
 CREATE TABLE clips(address INTEGER NOT NULL, take INTEGER NOT NULL REFERENCES takes, first_frame INTEGER NOT NULL, frames INTEGER NOT NULL, kind INTEGER NOT NULL, family INTEGER NOT NULL, primary_clip INTEGER NOT NULL, bytes INTEGER NOT NULL, PRIMARY KEY(address, take, first_frame)) WITHOUT ROWID;
 CREATE INDEX clips_of_take ON clips(take, first_frame);
 
-CREATE TABLE blobs(take INTEGER PRIMARY KEY REFERENCES takes, data BLOB NOT NULL);
+-- The layers of takes: layer l of take t is row 8 t + l.
+CREATE TABLE blobs(id INTEGER PRIMARY KEY, data BLOB NOT NULL);

@@ -39,6 +39,12 @@ struct CodedTake {
   std::vector<ClipRecord> clips;
 };
 
+std::size_t bytes_of_layers(const TakeRecord& record) {
+  std::size_t bytes = 0;
+  for (const LayerRecord& layer : record.layers) bytes += layer.data.size();
+  return bytes;
+}
+
 RejectedInput rejection(const InputFile& file, const Error& error) {
   std::string why = error.reason();
   if (!error.advice().empty()) why += "; " + error.advice();
@@ -173,7 +179,7 @@ class Ingest {
           } else {
             if (stored == 0) store_->begin();
             store_take(takes[i], coded);
-            bytes += coded.record.motion.size();
+            bytes += bytes_of_layers(coded.record);
             if (++stored >= batch_takes || bytes >= batch_bytes) commit();
           }
           tick(takes[i].file.name);
@@ -200,7 +206,7 @@ class Ingest {
       if (!coded.kept) return coded;
       coded.record = make_record(fresh, take, assignment, fitted);
       coded.clips.push_back(
-          whole_take_clip(fresh.outline.content, take.frames(), coded.record.motion.size()));
+          whole_take_clip(fresh.outline.content, take.frames(), bytes_of_layers(coded.record)));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
       coded.rejected = rejection(fresh.file, error);
@@ -211,8 +217,10 @@ class Ingest {
   TakeRecord make_record(const FreshTake& fresh, const Take& take,
                          const SpaceAssignment& assignment, FittedTake& fitted) const {
     TakeRecord record;
-    record.motion = encode_motion(assignment.space->model, fitted.shape, fitted.motion);
-    record.spent = {{"curves", record.motion.size()}};
+    const double mean_mm = options_.fidelity.limit_mm;
+    record.layers = {{LayerKind::coefficients, mean_mm, 0,
+                      encode_motion(assignment.space->model, fitted.shape, fitted.motion)}};
+    record.spent = {{"curves", record.layers[0].data.size()}};
     record.error_quantiles = sketch_distances(fitted.distances);
     record.proportions = assignment.proportions;
     record.space = assignment.space_id;

@@ -149,7 +149,7 @@ Take Archive::extract(const TakeInfo& info) const {
   take.name = record.info.name;
   const CodedSpace& space = impl_->space(record.space);
   take.channels = decode_take(space, *take.skeleton, {record.info.frames, record.info.frame_rate},
-                              store.motion(info.id));
+                              store.layer(info.id, 0));
   return take;
 }
 

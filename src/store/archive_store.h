@@ -51,14 +51,29 @@ struct SpaceRecord {
   Bytes data;
 };
 
+/// What a layer of a take holds. Persisted: never change a value.
+enum class LayerKind : std::uint8_t {
+  coefficients = 1,  ///< the take on the axes of its space; its mean error is bounded
+  refinement = 2,    ///< angles that keep every joint of every frame within a bound
+  text = 3           ///< the source file byte for byte
+};
+
+/// One part of a coded take. Layers stand from the coarsest to the finest, and each is read alone.
+struct LayerRecord {
+  LayerKind kind = LayerKind::coefficients;
+  double limit_mm = 0;  ///< what the layer promises, to a micrometre; 0 of a text
+  int base = 0;         ///< which layer (from 1 on) must be decoded before it; 0: none
+  Bytes data;           ///< opaque here
+};
+
 struct TakeRecord {
   TakeInfo
       info;  ///< id, skeleton, format, rates and raw and payload bytes are filled in by the store
   std::int64_t proportions = 0;
   std::int64_t space = 0;
-  Bytes error_quantiles;  ///< sketch of the distances, opaque here
-  Bytes motion;           ///< the coded take
-  /// Bytes of `motion` by what they are spent on; they add up to motion.size().
+  Bytes error_quantiles;            ///< sketch of the distances, opaque here
+  std::vector<LayerRecord> layers;  ///< at least one, at most `most_layers`
+  /// Bytes of the layers by what they are spent on; they add up to all of them.
   std::vector<std::pair<std::string, std::uint64_t>> spent;
 };
 
@@ -73,6 +88,8 @@ struct ClipRecord {
   std::uint64_t primary = 0;  ///< content address of the primary, or 0
   std::uint64_t bytes = 0;
 };
+
+constexpr std::size_t most_layers = 8;
 
 class ArchiveStore {
  public:
@@ -115,10 +132,11 @@ class ArchiveStore {
   ProportionsRecord reference_proportions(std::int64_t skeleton) const;
   SpaceRecord space(std::int64_t id) const;
   std::vector<std::int64_t> spaces_of_skeleton(
-      std::int64_t skeleton) const;                                    ///< in order of creation
-  std::optional<TakeRecord> find_take(const std::string& name) const;  ///< without `motion`
-  TakeRecord take(std::int64_t id) const;                              ///< without `motion`
-  Bytes motion(std::int64_t take) const;
+      std::int64_t skeleton) const;  ///< in order of creation
+  /// These two leave the data of the layers out.
+  std::optional<TakeRecord> find_take(const std::string& name) const;
+  TakeRecord take(std::int64_t id) const;
+  Bytes layer(std::int64_t take, std::size_t index) const;
   std::vector<std::string> take_names_ending_in(const std::string& tail, std::size_t most) const;
   std::vector<TakeInfo> takes(const TakeFilter& filter) const;  ///< by name
   std::vector<ClipRecord> clips(

@@ -52,6 +52,13 @@ std::vector<Damage> ArchiveStore::check_structure() const {
     while (keys.step())
       damaged.push_back({"tables", "a row of '" + keys.text() + "' refers to one that is gone"});
   });
+  note_damage("blobs", damaged, [&] {
+    Statement row(database,
+                  "SELECT id FROM blobs WHERE id/8 NOT IN (SELECT id FROM takes) LIMIT 20");
+    while (row.step()) {
+      damaged.push_back({"blobs", "row " + std::to_string(row.integer()) + " belongs to no take"});
+    }
+  });
   note_damage("skeletons", damaged, [&] { skeletons(); });
   note_damage("takes", damaged, [&] {
     Digest sum{};

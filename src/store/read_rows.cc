@@ -66,14 +66,14 @@ constexpr const char* clip_columns =
 constexpr const char* take_columns =
     "SELECT takes.id, leaf, folder, coalesce(subjects.name, ''), takes.proportions, space, frames, "
     "tier, "
-    "limit_mm, text_bytes, mean_um, rms_um, p99_um, max_um, sketch, spent, source, motion, "
+    "limit_mm, text_bytes, mean_um, rms_um, p99_um, max_um, sketch, spent, source, layers, "
     "takes.digest, "
     "coalesce(texts.description, ''), coalesce(texts.tags, ''), proportions.skeleton, "
     "proportions.frame_rate, proportions.assumed, skeletons.format, skeletons.channels, "
-    "length(blobs.data) FROM takes LEFT JOIN proportions ON proportions.id=takes.proportions "
-    "LEFT JOIN skeletons ON skeletons.id=proportions.skeleton LEFT JOIN blobs ON "
-    "blobs.take=takes.id "
-    "LEFT JOIN subjects ON subjects.id=takes.subject LEFT JOIN texts ON texts.take=takes.id";
+    "(SELECT sum(length(data)) FROM blobs WHERE blobs.id BETWEEN takes.id*8 AND takes.id*8+7) "
+    "FROM takes LEFT JOIN proportions ON proportions.id=takes.proportions "
+    "LEFT JOIN skeletons ON skeletons.id=proportions.skeleton LEFT JOIN subjects ON "
+    "subjects.id=takes.subject LEFT JOIN texts ON texts.take=takes.id";
 
 TakeRecord take_row(Statement& row) {
   TakeRecord record;
@@ -96,14 +96,14 @@ TakeRecord take_row(Statement& row) {
   record.error_quantiles = row.bytes();
   record.spent = unpack_spent(row.bytes());
   info.source_digest = hexadecimal(row.bytes());
-  const Bytes motion = row.bytes();
+  const Bytes layers = row.bytes();
   const Bytes digest = row.bytes();
   info.description = row.text();
   info.tags = row.text();
-  ShortDigest motion_digest{};
-  if (motion.size() != motion_digest.size()) throw_damaged("take '" + info.name + "'");
-  std::copy(motion.begin(), motion.end(), motion_digest.begin());
-  expect_equal(digest, row_digest(record, motion_digest), "take '" + info.name + "'");
+  expect_equal(digest, row_digest(record, layers), "take '" + info.name + "'");
+  std::optional<LayerTable> table = unpack_layers(layers);
+  if (!table) throw_damaged("take '" + info.name + "'");
+  record.layers = std::move(table->layers);
   info.skeleton = row.integer();
   info.frame_rate = row.real();
   info.frame_rate_assumed = row.integer() != 0;
@@ -265,15 +265,17 @@ TakeRecord ArchiveStore::take(std::int64_t id) const {
   return take_row(row);
 }
 
-Bytes ArchiveStore::motion(std::int64_t take) const {
+Bytes ArchiveStore::layer(std::int64_t take, std::size_t index) const {
   const std::string what = "the motion of take " + std::to_string(take);
-  Statement row = impl_->prepare(
-      "SELECT data, motion FROM blobs JOIN takes ON takes.id=blobs.take WHERE take=?");
-  row.bind(take);
+  Statement row =
+      impl_->prepare("SELECT data, layers FROM takes JOIN blobs ON blobs.id=? WHERE takes.id=?");
+  row.bind(blob_row(take, index)).bind(take);
   if (!row.step()) throw_damaged(what);
-  const Bytes motion = decompress(row.bytes(), most_blob);
-  expect_equal(row.bytes(), shortened(digest_of(motion)), what);
-  return motion;
+  const Bytes data = decompress(row.bytes(), most_blob);
+  const std::optional<LayerTable> table = unpack_layers(row.bytes());
+  if (!table || index >= table->digests.size()) throw_damaged(what);
+  if (table->digests[index] != shortened(digest_of(data))) throw_damaged(what);
+  return data;
 }
 
 std::vector<std::string> ArchiveStore::take_names_ending_in(const std::string& tail,
@@ -349,8 +351,10 @@ Digest ArchiveStore::content_of(std::int64_t id) const {
   const TakeRecord record = take(id);
   const std::int64_t ids[] = {id};
   const std::vector<ClipRecord> own = clips(ids);
+  std::vector<Digest> layers;
+  for (std::size_t i = 0; i < record.layers.size(); ++i) layers.push_back(digest_of(layer(id, i)));
   return take_content(record, proportions(record.proportions).identity,
-                      digest_of_space(record.space), digest_of(motion(id)), own);
+                      digest_of_space(record.space), layers, own);
 }
 
 }  // namespace reprise

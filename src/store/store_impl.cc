@@ -46,39 +46,8 @@ std::string join_name(const std::string& folder, const std::string& leaf) {
   return folder.empty() ? leaf : folder + "/" + leaf;
 }
 
-const std::vector<std::string>& part_names() {
-  static const std::vector<std::string> names = {"curves", "repeats",     "contacts",
-                                                 "root",   "corrections", "text"};
-  return names;
-}
-
-Bytes pack_spent(const std::vector<std::pair<std::string, std::uint64_t>>& spent) {
-  Bytes bytes;
-  for (const auto& [name, size] : spent) {
-    const auto part = std::ranges::find(part_names(), name);
-    assert(part != part_names().end());
-    bytes.push_back(static_cast<std::uint8_t>(part - part_names().begin()));
-    std::uint64_t rest = size;
-    for (; rest >= 128; rest >>= 7) bytes.push_back(static_cast<std::uint8_t>(rest | 128));
-    bytes.push_back(static_cast<std::uint8_t>(rest));
-  }
-  return bytes;
-}
-
-std::vector<std::pair<std::string, std::uint64_t>> unpack_spent(const Bytes& bytes) {
-  std::vector<std::pair<std::string, std::uint64_t>> spent;
-  for (std::size_t i = 0; i < bytes.size();) {
-    const std::size_t part = bytes[i++];
-    std::uint64_t size = 0;
-    int shift = 0;
-    while (i < bytes.size() && shift < 63) {
-      size |= std::uint64_t{bytes[i] & 127u} << shift;
-      shift += 7;
-      if ((bytes[i++] & 128) == 0) break;
-    }
-    spent.emplace_back(part < part_names().size() ? part_names()[part] : "other", size);
-  }
-  return spent;
+std::int64_t blob_row(std::int64_t take, std::size_t layer) {
+  return take * static_cast<std::int64_t>(most_layers) + static_cast<std::int64_t>(layer);
 }
 
 std::int64_t stored_address(std::uint64_t address) {
@@ -120,8 +89,6 @@ Digest space_digest(const Digest& structure, const Digest& base, const Bytes& da
 
 namespace {
 
-std::int64_t micrometres(double millimetres) { return std::llround(millimetres * 1000.0); }
-
 /// What the row and the content of a take have in common.
 void add_take(Hasher& hasher, const TakeRecord& record) {
   const TakeInfo& info = record.info;
@@ -144,22 +111,27 @@ void add_take(Hasher& hasher, const TakeRecord& record) {
 
 }  // namespace
 
-ShortDigest row_digest(const TakeRecord& record, const ShortDigest& motion) {
+ShortDigest row_digest(const TakeRecord& record, const Bytes& layers) {
   Hasher hasher;
   add_take(hasher, record);
   hasher.add_number(record.proportions);
   hasher.add_number(record.space);
-  hasher.add_bytes(motion);
+  hasher.add_bytes(layers);
   return shortened(hasher.finish());
 }
 
 Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
-                    const Digest& motion, std::span<const ClipRecord> clips) {
+                    std::span<const Digest> layers, std::span<const ClipRecord> clips) {
   Hasher hasher;
   add_take(hasher, record);
   hasher.add_bytes(proportions);
   hasher.add_bytes(space);
-  hasher.add_bytes(motion);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    hasher.add_number(static_cast<int>(record.layers[i].kind));
+    hasher.add_number(record.layers[i].base);
+    hasher.add_number(micrometres(record.layers[i].limit_mm));
+    hasher.add_bytes(layers[i]);
+  }
   for (const ClipRecord& clip : clips) {
     hasher.add_number(static_cast<std::int64_t>(clip.id));
     hasher.add_number(clip.first_frame);

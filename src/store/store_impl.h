@@ -9,6 +9,7 @@
 #include "store/archive_store.h"
 #include "store/database.h"
 #include "store/digest.h"
+#include "store/packed_columns.h"
 
 namespace reprise {
 
@@ -43,11 +44,8 @@ struct ArchiveStore::Impl {
 std::pair<std::string, std::string> split_name(const std::string& name);
 std::string join_name(const std::string& folder, const std::string& leaf);
 
-/// Names of the parts of coded motion, in the order of their numbers in takes.spent. Never change
-/// one.
-const std::vector<std::string>& part_names();
-Bytes pack_spent(const std::vector<std::pair<std::string, std::uint64_t>>& spent);
-std::vector<std::pair<std::string, std::uint64_t>> unpack_spent(const Bytes& bytes);
+/// The row of a layer in the table of blobs.
+std::int64_t blob_row(std::int64_t take, std::size_t layer);
 
 /// Clip addresses are unsigned, SQLite's integers signed: moved so that their order stays.
 std::int64_t stored_address(std::uint64_t address);
@@ -57,9 +55,9 @@ std::uint64_t address_of(std::int64_t stored);
 ShortDigest row_digest(const SkeletonRecord& record);
 Digest proportions_identity(const ProportionsRecord& record);
 Digest space_digest(const Digest& structure, const Digest& base, const Bytes& data);
-ShortDigest row_digest(const TakeRecord& record, const ShortDigest& motion);
-/// What a take is, wherever it stands in an archive.
+ShortDigest row_digest(const TakeRecord& record, const Bytes& layers);
+/// What a take is, wherever it stands in an archive; `layers` are the digests of its layers' data.
 Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
-                    const Digest& motion, std::span<const ClipRecord> clips);
+                    std::span<const Digest> layers, std::span<const ClipRecord> clips);
 
 }  // namespace reprise

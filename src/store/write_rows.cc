@@ -1,13 +1,11 @@
 // Rows into the archive, and out of it.
-#include <cmath>
+#include <cassert>
 
 #include "store/compression.h"
 #include "store/store_impl.h"
 
 namespace reprise {
 namespace {
-
-std::int64_t micrometres(double millimetres) { return std::llround(millimetres * 1000.0); }
 
 Digest content_sum(const Database& database) {
   Statement statement(database, "SELECT value FROM meta WHERE key='content'");
@@ -113,11 +111,12 @@ std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const Clip
   const Database& database = *impl_->database;
   const TakeInfo& info = take.info;
   const auto [folder, leaf] = split_name(info.name);
-  const Digest motion = digest_of(take.motion);
+  assert(!take.layers.empty() && take.layers.size() <= most_layers);
+  const Bytes layers = pack_layers(layer_table(take.layers));
   Statement insert = impl_->prepare(
       "INSERT INTO takes(leaf, folder, subject, proportions, space, frames, tier, limit_mm, "
       "text_bytes, "
-      "mean_um, rms_um, p99_um, max_um, sketch, spent, source, motion, digest) "
+      "mean_um, rms_um, p99_um, max_um, sketch, spent, source, layers, digest) "
       "VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   insert.bind(leaf).bind(folder).bind(subject_row(database, info.subject));
   insert.bind(take.proportions).bind(take.space).bind(std::int64_t{info.frames});
@@ -126,8 +125,8 @@ std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const Clip
   insert.bind(micrometres(info.error_mm.mean)).bind(micrometres(info.error_mm.rms));
   insert.bind(micrometres(info.error_mm.p99)).bind(micrometres(info.error_mm.max));
   insert.bind(take.error_quantiles).bind(pack_spent(take.spent));
-  insert.bind(from_hexadecimal(info.source_digest)).bind(shortened(motion));
-  insert.bind(row_digest(take, shortened(motion))).run();
+  insert.bind(from_hexadecimal(info.source_digest)).bind(layers);
+  insert.bind(row_digest(take, layers)).run();
   const std::int64_t id = database.last_row();
   if (!info.description.empty() || !info.tags.empty()) {
     impl_->prepare("INSERT INTO texts(take, description, tags) VALUES(?,?,?)")
@@ -137,10 +136,12 @@ std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const Clip
         .run();
   }
   for (const ClipRecord& clip : clips) insert_clip(database, id, clip);
-  impl_->prepare("INSERT INTO blobs(take, data) VALUES(?,?)")
-      .bind(id)
-      .bind(compress(take.motion, false))
-      .run();
+  for (std::size_t i = 0; i < take.layers.size(); ++i) {
+    impl_->prepare("INSERT INTO blobs(id, data) VALUES(?,?)")
+        .bind(blob_row(id, i))
+        .bind(compress(take.layers[i].data, false))
+        .run();
+  }
   Digest sum = content_sum(database);
   add_to_sum(sum, content_of(id));
   store_content_sum(database, sum);
@@ -154,9 +155,13 @@ void ArchiveStore::remove_take(std::int64_t id) {
   Digest sum = content_sum(database);
   subtract_from_sum(sum, content_of(id));
   store_content_sum(database, sum);
-  for (const char* table : {"clips", "texts", "blobs"}) {
+  for (const char* table : {"clips", "texts"}) {
     Statement(database, std::string("DELETE FROM ") + table + " WHERE take=?").bind(id).run();
   }
+  Statement(database, "DELETE FROM blobs WHERE id BETWEEN ? AND ?")
+      .bind(blob_row(id, 0))
+      .bind(blob_row(id, most_layers - 1))
+      .run();
   impl_->prepare("DELETE FROM takes WHERE id=?").bind(id).run();
   // What nothing refers to any more goes too; a skeleton keeps its axes and the proportions that
   // they are for.

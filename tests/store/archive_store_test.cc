@@ -25,7 +25,13 @@ TEST_F(ArchiveStoreTest, RecordsComeBack) {
     EXPECT_EQ(got->info.raw_bytes, 4u * 60u * static_cast<unsigned>(put.info.frames));
     EXPECT_EQ(got->info.source_digest, put.info.source_digest);
     EXPECT_EQ(got->spent, put.spent);
-    EXPECT_EQ(store.motion(got->info.id), put.motion);
+    ASSERT_EQ(got->layers.size(), put.layers.size());
+    for (std::size_t layer = 0; layer < put.layers.size(); ++layer) {
+      EXPECT_EQ(got->layers[layer].kind, put.layers[layer].kind);
+      EXPECT_EQ(got->layers[layer].limit_mm, put.layers[layer].limit_mm);
+      EXPECT_EQ(got->layers[layer].base, put.layers[layer].base);
+      EXPECT_EQ(store.layer(got->info.id, layer), put.layers[layer].data);
+    }
     const std::int64_t ids[] = {got->info.id};
     ASSERT_EQ(store.clips(ids).size(), 1u);
     EXPECT_EQ(store.clips(ids)[0].id, sample_clip(i).id);

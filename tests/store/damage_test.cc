@@ -120,7 +120,8 @@ TEST_F(Damage, RowsThatWereChangedAreErrors) {
         "UPDATE takes SET mean_um=1", "UPDATE texts SET description='other'",
         "UPDATE subjects SET name='other'", "UPDATE proportions SET frame_rate=60",
         "UPDATE skeletons SET channels=channels+1", "UPDATE takes SET space=1, proportions=9",
-        "UPDATE blobs SET data=(SELECT data FROM blobs WHERE take=2) WHERE take=1",
+        "UPDATE blobs SET data=(SELECT data FROM blobs WHERE id=16) WHERE id=8",
+        "UPDATE blobs SET data=(SELECT data FROM blobs WHERE id=8) WHERE id=9",
         "UPDATE spaces SET data=x'28b52ffd'"}) {
     fs::remove(path_);
     make_sample(path_, 3);
@@ -130,8 +131,10 @@ TEST_F(Damage, RowsThatWereChangedAreErrors) {
 }
 
 TEST_F(Damage, MissingRowsAreFoundByTheCheck) {
-  for (const char* sql : {"DELETE FROM clips WHERE take=1", "DELETE FROM takes WHERE id=2",
-                          "UPDATE clips SET frames=1 WHERE take=1"}) {
+  for (const char* sql :
+       {"DELETE FROM clips WHERE take=1", "DELETE FROM takes WHERE id=2",
+        "UPDATE clips SET frames=1 WHERE take=1",
+        "INSERT INTO blobs SELECT 9999, data FROM blobs LIMIT 1", "DELETE FROM blobs WHERE id=9"}) {
     fs::remove(path_);
     make_sample(path_, 3);
     run_sql(sql);

@@ -75,8 +75,9 @@ inline TakeRecord sample_take(const Ground& ground, int number) {
   take.proportions = ground.proportions;
   take.space = ground.space;
   take.error_quantiles = {1, 2, 3, 4, 5, 6, 7, 8};
-  take.motion = random_bytes(200 + 10 * seed, seed);
-  take.spent = {{"curves", take.motion.size()}};
+  take.layers = {{LayerKind::coefficients, 20.0, 0, random_bytes(200 + 10 * seed, seed)},
+                 {LayerKind::refinement, 10.0, 1, random_bytes(300 + 10 * seed, seed + 1)}};
+  take.spent = {{"curves", take.layers[0].data.size()}, {"refinement", take.layers[1].data.size()}};
   return take;
 }
 
@@ -107,12 +108,15 @@ inline std::string everything(const ArchiveStore& store) {
   std::string text;
   for (const TakeInfo& info : store.takes({})) {
     const TakeRecord take = store.take(info.id);
-    text += info.name + "|" + info.subject + "|" + info.description + "|" +
-            std::to_string(info.frames) + "|" + std::to_string(info.frame_rate) + "|" +
-            std::to_string(info.error_mm.max) + "|" + info.source_digest + "|" +
-            hexadecimal(store.motion(info.id)) + "|" + hexadecimal(take.error_quantiles) + "|" +
-            hexadecimal(store.space(take.space).data) + "|" +
-            store.proportions(take.proportions).source_text;
+    for (const std::string& part :
+         {info.name, info.subject, info.description, std::to_string(info.frames),
+          std::to_string(info.frame_rate), std::to_string(info.error_mm.max), info.source_digest,
+          hexadecimal(store.layer(info.id, 0)), hexadecimal(store.layer(info.id, 1)),
+          hexadecimal(take.error_quantiles), hexadecimal(store.space(take.space).data),
+          store.proportions(take.proportions).source_text}) {
+      text += part;
+      text += '|';
+    }
     const std::int64_t ids[] = {info.id};
     for (const ClipRecord& clip : store.clips(ids)) {
       text += "|" + std::to_string(clip.id) + ":" + std::to_string(clip.frames);
