@@ -27,17 +27,25 @@ class Level {
   double midpoint(Index i) {
     const Index last = (count_ - 1) / 2 * 2;
     if (i + 1 > last) return i < 3 ? at(i - 1) : 1.5 * at(i - 1) - 0.5 * at(i - 3);
-    const double left = i >= 3 ? at(i - 3) : 2 * at(i - 1) - at(i + 1);
-    const double right = i + 3 <= last ? at(i + 3) : 2 * at(i + 1) - at(i - 1);
-    return (9.0 / 16) * (at(i - 1) + at(i + 1)) - (1.0 / 16) * (left + right);
+    const double near = at(i - 1) + at(i + 1);
+    return (75.0 / 128) * near - (25.0 / 256) * (knot(i - 3, last) + knot(i + 3, last)) +
+           (3.0 / 256) * (knot(i - 5, last) + knot(i + 5, last));
   }
 
   /// What the details around even `i` say of the coarser knot.
   double correction(Index i) {
-    return 0.25 * ((i >= 1 ? at(i - 1) : 0.0) + (i + 1 < count_ ? at(i + 1) : 0.0));
+    return (9.0 / 32) * (detail(i - 1) + detail(i + 1)) -
+           (1.0 / 32) * (detail(i - 3) + detail(i + 3));
   }
 
  private:
+  double knot(Index i, Index last) {
+    if (i < 0) return at(0) + static_cast<double>(-i / 2) * (at(0) - at(2));
+    if (i > last) return at(last) + static_cast<double>((i - last) / 2) * (at(last) - at(last - 2));
+    return at(i);
+  }
+  double detail(Index i) { return i >= 0 && i < count_ ? at(i) : 0.0; }
+
   double* values_;
   Index stride_;
   Index count_;

@@ -1,9 +1,8 @@
-// Curves through nested knots (lin-2011 section 5.1). A Catmull-Rom curve half-way between its
-// knots is
-// (-1, 9, 9, -1)/16 of the four around it; a knot of the next finer level is stored as what it
-// differs from that. A knot exists where that is not zero, so knots are dense where the motion asks
-// for them. An update step fits the coarser knots to the frames around them instead of sampling
-// them.
+// Curves through nested knots (lin-2011 section 5.1). Half-way between its knots a curve is
+// (3, -25, 150, 150, -25, 3)/256 of the six around it, where a Catmull-Rom curve is
+// (-1, 9, 9, -1)/16 of four; a knot of the next finer level is stored as what it differs from that.
+// A knot exists where that is not zero, so knots are dense where the motion asks for them. An
+// update step fits the coarser knots to the frames around them instead of sampling them.
 #pragma once
 
 #include <Eigen/Core>
