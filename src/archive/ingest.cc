@@ -201,7 +201,8 @@ class Ingest {
       const Take take = read_again(fresh, options_.read);
       FittedTake fitted = assignment.fitted
                               ? *assignment.fitted
-                              : fit_take(assignment.space->space, take, options_.fidelity.limit_mm);
+                              : fit_take(assignment.space->space, assignment.space->model, take,
+                                         options_.fidelity.limit_mm);
       coded.kept = fitted.kept;
       if (!coded.kept) return coded;
       coded.record = make_record(fresh, take, assignment, fitted);

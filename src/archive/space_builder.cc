@@ -144,28 +144,35 @@ std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& spac
   const Members chosen = spread(
       training, std::max<std::size_t>(
                     1, static_cast<std::size_t>(part * static_cast<double>(training.size()))));
-  struct Fit {
-    TakeKnots knots;
-    FittedTake fitted;
-  };
-  KnotScales scales;
+  const KnotScales scales = measure_scales(space, chosen);
+  const KnotModel model(scales);
   fits_.clear();
   produce_in_order(
       chosen.size(), options_.jobs,
       [&](std::size_t c) {
         const Take take = read_again((*takes_)[chosen[c]], options_.read);
-        const MarkedTake marked = mark_take(space.layout, take);
-        return Fit{take_knots(space, {take.frames(), take.frame_rate}, marked.root.tumbles,
-                              to_trajectories(space, take, marked)),
-                   fit_take(space, take, options_.fidelity.limit_mm)};
+        return fit_take(space, model, take, options_.fidelity.limit_mm);
       },
-      [&](std::size_t c, Fit fit) {
-        scales.add(fit.knots.shape, fit.knots.knots);
-        if (fit.fitted.kept) fits_.emplace(chosen[c], std::move(fit.fitted));
+      [&](std::size_t c, FittedTake fitted) {
+        if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));
         tick_((*takes_)[chosen[c]].file.name);
       });
-  scales.settle();
   return cheaper_prior(scales, static_cast<double>(all) / static_cast<double>(chosen.size()));
+}
+
+KnotScales SpaceBuilder::measure_scales(const CoefficientSpace& space, const Members& members) {
+  KnotScales scales;
+  produce_in_order(
+      members.size(), options_.jobs,
+      [&](std::size_t m) {
+        const Take take = read_again((*takes_)[members[m]], options_.read);
+        const MarkedTake marked = mark_take(space.layout, take);
+        return take_knots(space, {take.frames(), take.frame_rate}, marked.root.tumbles,
+                          to_trajectories(space, take, marked));
+      },
+      [&](std::size_t, const TakeKnots& knots) { scales.add(knots.shape, knots.knots); });
+  scales.settle();
+  return scales;
 }
 
 std::vector<std::uint8_t> SpaceBuilder::cheaper_prior(const KnotScales& scales,

@@ -9,8 +9,10 @@ namespace {
 /// Codes one take at one step after another.
 class StepSearch {
  public:
-  StepSearch(const CoefficientSpace& space, const Take& take, double mean_mm)
+  StepSearch(const CoefficientSpace& space, const KnotModel& model, const Take& take,
+             double mean_mm)
       : space_(space),
+        model_(model),
         take_(take),
         allowed_(mean_mm * (1.0 - FitConstants::margin)),
         positions_(joint_positions(*take.skeleton, take.channels)) {
@@ -62,14 +64,14 @@ class StepSearch {
 
   void find_switches() {
     const int step = first_guess();
-    switches_ = find_branch_switches(space_, take_, decode(step, quantise(knots_, step)));
+    switches_ = find_branch_switches(space_, take_, decode(step, quantise(model_, knots_, step)));
   }
 
   FittedTake measure(int step) const {
     FittedTake tried;
     tried.shape = knots_.shape;
     tried.shape.step_half_octaves = half_octaves(step);
-    tried.motion = {knots_.tumbles, step, switches_, quantise(knots_, step)};
+    tried.motion = {knots_.tumbles, step, switches_, quantise(model_, knots_, step)};
     const PositionMatrix decoded =
         joint_positions(*take_.skeleton, decode(step, tried.motion.knots));
     tried.distances = joint_distances(positions_, decoded);
@@ -81,6 +83,7 @@ class StepSearch {
   }
 
   const CoefficientSpace& space_;
+  const KnotModel& model_;
   const Take& take_;
   double allowed_;
   PositionMatrix positions_;
@@ -99,8 +102,9 @@ double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers) {
       (static_cast<double>(std::max<Eigen::Index>(markers.rows(), 1)) * space.layout.point_count));
 }
 
-FittedTake fit_take(const CoefficientSpace& space, const Take& take, double mean_mm) {
-  FittedTake fitted = StepSearch(space, take, mean_mm).run();
+FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
+                    double mean_mm) {
+  FittedTake fitted = StepSearch(space, model, take, mean_mm).run();
   if (fitted.kept) fitted.errors = summarise_distances(fitted.distances);
   return fitted;
 }

@@ -26,6 +26,8 @@ struct FittedTake {
 /// Root mean square distance (mm a point) that the axes of a space leave of a take's markers.
 double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers);
 
-FittedTake fit_take(const CoefficientSpace& space, const Take& take, double mean_mm);
+/// `model` is where the contexts of the space's takes start.
+FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
+                    double mean_mm);
 
 }  // namespace reprise

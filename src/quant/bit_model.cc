@@ -129,8 +129,13 @@ bool BitMixer::decode(RangeDecoder& decoder, const Contexts& contexts) {
 }
 
 std::uint32_t BitMixer::learn(const Contexts& contexts, bool bit) {
-  const Probability one = predict(contexts);
+  const std::uint32_t bits = cost(contexts, bit);
   update(contexts, bit);
+  return bits;
+}
+
+std::uint32_t BitMixer::cost(const Contexts& contexts, bool bit) {
+  const Probability one = predict(contexts);
   return cost_table[(bit ? one : 65536 - one) >> 4];
 }
 

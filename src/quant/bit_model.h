@@ -43,6 +43,8 @@ class BitMixer {
   bool decode(RangeDecoder& decoder, const Contexts& contexts);
   /// Learns as if `bit` had been coded; returns its cost in 1/65536 bit.
   std::uint32_t learn(const Contexts& contexts, bool bit);
+  /// The cost alone.
+  std::uint32_t cost(const Contexts& contexts, bool bit);
 
   /// Writes what was learned, but for the last table, whose contexts are too many to be worth it.
   void save(RangeEncoder& encoder) const;

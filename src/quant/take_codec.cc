@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int step_bits = 7;
+constexpr int step_bits = 9;
 /// Past the end of its bytes a stream reads zeros; one that wants more than this of them is
 /// damaged.
 constexpr std::size_t most_bytes_past_end = 16;
@@ -57,21 +57,11 @@ TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool 
   return result;
 }
 
-QuantisedKnots quantise(const TakeKnots& knots, int step_index) {
-  constexpr double most = 1 << 29;
-  const double scale = 1.0 / quantiser_step(step_index);
-  QuantisedKnots result(knots.knots.rows(), knots.knots.cols());
-  for (Index f = 0; f < result.rows(); ++f) {
-    const bool coarsest = knot_level(f, knots.shape.levels) == knots.shape.levels;
-    const double down =
-        coarsest ? QuantiserConstants::coarse_rounding : QuantiserConstants::rounding;
-    for (Index c = 0; c < result.cols(); ++c) {
-      const double value = std::clamp(knots.knots(f, c) * scale, -most, most);
-      const double magnitude = std::floor(std::abs(value) + 1.0 - down);
-      result(f, c) = static_cast<std::int32_t>(value < 0 ? -magnitude : magnitude);
-    }
-  }
-  return result;
+QuantisedKnots quantise(const KnotModel& model, const TakeKnots& knots, int step_index) {
+  KnotShape shape = knots.shape;
+  shape.step_half_octaves = half_octaves(step_index);
+  return KnotModel(model).choose(shape, knots.knots / quantiser_step(step_index),
+                                 QuantiserConstants::lambda);
 }
 
 TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& shape,

@@ -13,14 +13,13 @@ namespace reprise {
 
 /// Constants of the quantiser.
 struct QuantiserConstants {
-  /// Steps are powers of 2^(1/8) of a millimetre, from 2^-5 mm on.
-  static constexpr int steps_per_octave = 8;
-  static constexpr int step_of_one_mm = 40;
-  static constexpr int most_step = 127;
-  /// A value is rounded up from this part of a step on. Above 0.5: a dead zone, since a zero costs
-  /// least.
-  static constexpr double rounding = 0.60;
-  static constexpr double coarse_rounding = 0.55;
+  /// Steps are powers of 2^(1/32) of a millimetre, from 2^-5 mm on: a take's error comes within a
+  /// hundredth of what it may be.
+  static constexpr int steps_per_octave = 32;
+  static constexpr int step_of_one_mm = 160;
+  static constexpr int most_step = 511;
+  /// What a bit may add to the squared error, in squared steps; docs/findings has what was tried.
+  static constexpr double lambda = 0.10;
 };
 
 /// The quantisation step (mm) of an index 0 .. most_step.
@@ -44,7 +43,8 @@ struct TakeKnots {
 TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
                      TrajectoryMatrix trajectories);
 
-QuantisedKnots quantise(const TakeKnots& knots, int step_index);
+/// Chooses quantised knots by error and bits, with contexts that start as `model`.
+QuantisedKnots quantise(const KnotModel& model, const TakeKnots& knots, int step_index);
 /// Trajectories as the decoder sees them.
 TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& shape,
                             int step_index);

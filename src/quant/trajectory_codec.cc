@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "quant/catmull_rom.h"
 #include "quant/numbers.h"
@@ -142,6 +143,9 @@ class KnotWalk {
     base_[4] = slot * column_slots + column_slot;
     slot_ = slot;
     const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
+    if constexpr (requires { io_.wanted(frame, column); }) {
+      knots_(frame, column) = predicted + chosen(io_.wanted(frame, column) - predicted);
+    }
     // In unsigned arithmetic: a damaged stream may ask for any sum.
     const auto residual = static_cast<std::int32_t>(
         static_cast<std::uint32_t>(knots_(frame, column)) - static_cast<std::uint32_t>(predicted));
@@ -157,13 +161,40 @@ class KnotWalk {
     return follows && before >= 0 ? knots_(before, column) : 0;
   }
 
-  bool decide(std::uint32_t decision, bool bit) {
+  BitMixer::Contexts contexts_of(std::uint32_t decision) const {
     BitMixer::Contexts contexts;
     for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
       contexts.counter[t] = decision * knot_contexts[t] + base_[t];
     }
     contexts.weights = decision * level_slots + slot_;
-    return io_(contexts, bit);
+    return contexts;
+  }
+
+  bool decide(std::uint32_t decision, bool bit) { return io_(contexts_of(decision), bit); }
+
+  /// The value near `wanted` that costs least, error and bits together.
+  int chosen(double wanted) {
+    const double size = std::abs(wanted);
+    const int nearest = static_cast<int>(std::lround(size));
+    if (nearest == 0 || nearest > unary_limit) return wanted < 0 ? -nearest : nearest;
+    constexpr double sign_bits = 1;
+    double above = 0;  // bits that say that the magnitude is more than those before
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int magnitude = 0; magnitude <= nearest; ++magnitude) {
+      static_assert(is_more_than == is_not_zero + 1);
+      const auto decision = u(magnitude);
+      const double stop = io_.bits(contexts_of(decision), false);
+      const double error = size - magnitude;
+      const double cost =
+          error * error + io_.lambda * (above + stop + (magnitude > 0 ? sign_bits : 0));
+      if (cost < least) {
+        least = cost;
+        best = magnitude;
+      }
+      above += io_.bits(contexts_of(decision), true);
+    }
+    return wanted < 0 ? -best : best;
   }
 
   int code_value(int value, const int (&signs)[4]) {
@@ -263,6 +294,25 @@ struct Learner {
   std::uint32_t plain(std::uint32_t value, int count) {
     cost += static_cast<std::uint64_t>(count) << 16;
     return value & ((1u << count) - 1);
+  }
+};
+
+/// Learns from what it chooses on the way.
+struct Chooser {
+  const Eigen::MatrixXd& knots;
+  double lambda;
+  BitMixer& mixer;
+  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
+    mixer.learn(contexts, bit);
+    return bit;
+  }
+  std::uint32_t plain(std::uint32_t value, int count) { return value & ((1u << count) - 1); }
+  double wanted(Index frame, int column) const {
+    constexpr double most = 1 << 29;
+    return std::clamp(knots(frame, column), -most, most);
+  }
+  double bits(const BitMixer::Contexts& contexts, bool bit) {
+    return mixer.cost(contexts, bit) / 65536.0;
   }
 };
 
@@ -367,6 +417,18 @@ double KnotModel::learn(const KnotShape& shape, const QuantisedKnots& knots) {
   std::uint64_t cost = 0;
   KnotWalk<Learner>({cost, mixer_}, scales_, shape, copy).run();
   return static_cast<double>(cost) / 65536.0;
+}
+
+QuantisedKnots KnotModel::choose(const KnotShape& shape, const Eigen::MatrixXd& knots,
+                                 double lambda) {
+  // What the walk finds says up to which trajectory there are knots on a level.
+  constexpr double dead_zone = 0.62;
+  QuantisedKnots chosen = knots.unaryExpr([](double value) {
+    const double size = std::floor(std::min(std::abs(value), double{1 << 29}) + 1.0 - dead_zone);
+    return static_cast<std::int32_t>(value < 0 ? -size : size);
+  });
+  KnotWalk<Chooser>({knots, lambda, mixer_}, scales_, shape, chosen).run();
+  return chosen;
 }
 
 }  // namespace reprise

@@ -67,6 +67,9 @@ class KnotModel {
   QuantisedKnots decode(RangeDecoder& decoder, const KnotShape& shape);
   /// Learns from knots; returns what they would cost, in bits.
   double learn(const KnotShape& shape, const QuantisedKnots& knots);
+  /// Rounds `knots`, which are in steps, so that squared error plus `lambda` times bits is small:
+  /// each in turn, with what was learned of those before it. Learns from what it chooses.
+  QuantisedKnots choose(const KnotShape& shape, const Eigen::MatrixXd& knots, double lambda);
 
   /// What was learned, as bytes; a model made with the same scales starts from them. False: not a
   /// prior.

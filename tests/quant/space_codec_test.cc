@@ -95,7 +95,7 @@ TEST_F(SpaceCodec, TakesComeBackFromTheirBytes) {
   const TakeKnots knots =
       take_knots(space_, shape, marked.root.tumbles, to_trajectories(space_, take_, marked));
   const CodedMotion motion{
-      false, 16, {{3, 1, {1, -2, 0}}, {9, -1, {0, 0, 4}}}, quantise(knots, 56)};
+      false, 224, {{3, 1, {1, -2, 0}}, {9, -1, {0, 0, 4}}}, quantise(coded.model, knots, 224)};
   const auto bytes = encode_motion(coded.model, knots.shape, motion);
   const CodedMotion decoded = decode_motion(coded.model, space_, shape, bytes);
   EXPECT_EQ(decoded.knots, motion.knots);

@@ -83,6 +83,28 @@ TEST(KnotModel, PriorHelpsAndIsReadAsWritten) {
   EXPECT_EQ(reader.decode(decoder, other.shape), other.values);
 }
 
+TEST(KnotModel, ChosenKnotsAreWorthTheirError) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> normal;
+  const KnotShape shape = random_knots(600, 4, 20, 1, 1).shape;
+  Eigen::MatrixXd wanted(600, 25);
+  for (long f = 0; f < wanted.rows(); ++f) {
+    for (int c = 0; c < wanted.cols(); ++c) {
+      wanted(f, c) = normal(random) * (1 + knot_level(f, shape.levels)) * 8.0 / (8 + c);
+    }
+  }
+  const double lambda = 0.1;
+  const auto total = [&](const QuantisedKnots& knots) {
+    return (wanted - knots.cast<double>()).squaredNorm() + lambda * KnotModel().learn(shape, knots);
+  };
+  const QuantisedKnots chosen = KnotModel().choose(shape, wanted, lambda);
+  const QuantisedKnots rounded = wanted.array().round().cast<std::int32_t>();
+  EXPECT_LT(total(chosen), total(rounded));
+  EXPECT_LT(KnotModel().learn(shape, chosen), KnotModel().learn(shape, rounded));
+  // Nothing is made larger than it is.
+  EXPECT_LE((chosen.cast<double>().cwiseAbs() - wanted.cwiseAbs()).maxCoeff(), 0.5 + 1e-9);
+}
+
 TEST(KnotModel, GarbageIsReadWithoutHarm) {
   std::mt19937 random(4);
   for (int i = 0; i < 200; ++i) {
