@@ -1,0 +1,107 @@
+#include "refine/pose_metric.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "reprise/synth/library.h"
+
+namespace reprise {
+namespace {
+
+class PoseMetrics : public testing::TestWithParam<MotionFormat> {
+ protected:
+  PoseMetrics() {
+    SynthOptions options;
+    options.takes = 1;
+    options.seconds = 2;
+    options.format = GetParam();
+    take_ = make_synthetic_library(options).takes.at(0);
+    metrics_.resize(static_cast<std::size_t>(take_.skeleton->channel_count));
+  }
+
+  std::span<const double> frame(const ChannelMatrix& channels, long f) const {
+    return {channels.row(f).data(), static_cast<std::size_t>(channels.cols())};
+  }
+
+  Take take_;
+  std::vector<ChannelMetric> metrics_;
+};
+
+TEST_P(PoseMetrics, ChannelsComeAfterWhatTheyHangOn) {
+  const std::vector<int> order = coding_order(*take_.skeleton);
+  const std::vector<int> parents = coding_parents(*take_.skeleton);
+  std::vector<int> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<int> all(static_cast<std::size_t>(take_.skeleton->channel_count));
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(sorted, all);
+  ASSERT_EQ(parents.size(), order.size());
+  for (std::size_t i = 0; i < parents.size(); ++i) EXPECT_LT(parents[i], static_cast<int>(i));
+}
+
+/// A channel's motion is what forward kinematics does, to first order.
+TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
+  PoseMetric metric(*take_.skeleton);
+  const std::vector<double> weights(take_.skeleton->joints.size(), 1.0);
+  const std::vector<int> order = coding_order(*take_.skeleton);
+  const std::vector<int> parents = coding_parents(*take_.skeleton);
+  const long f = take_.frames() / 2;
+  metric.measure(frame(take_.channels, f), weights, metrics_);
+  std::vector<JointFrame> before(take_.skeleton->joints.size()), after = before;
+  forward_kinematics(*take_.skeleton, frame(take_.channels, f), before);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  ChannelMatrix moved = take_.channels.row(f);
+  std::vector<Twist> twists(order.size(), Twist::Zero());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double error = 1e-5 * normal(random);
+    moved(0, order[i]) += error;
+    if (parents[i] >= 0) twists[i] = twists[static_cast<std::size_t>(parents[i])];
+    twists[i] += metrics_[i].motion * error;
+  }
+  forward_kinematics(*take_.skeleton, frame(moved, 0), after);
+  // The last channel that moves each joint: its own last one, but a BVH joint's turns move only
+  // what hangs on it.
+  std::size_t place = 0;
+  std::vector<int> last(take_.skeleton->joints.size(), -1);
+  for (std::size_t j = 0; j < last.size(); ++j) {
+    const Joint& joint = take_.skeleton->joints[j];
+    last[j] = joint.parent < 0 ? -1 : last[static_cast<std::size_t>(joint.parent)];
+    int moves = last[j];
+    for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+      last[j] = static_cast<int>(place++);
+      const bool turn = is_rotation(joint.channels[static_cast<std::size_t>(
+          order[static_cast<std::size_t>(last[j])] - joint.first_channel)]);
+      if (!turn || joint.parent >= 0) {
+        if (!turn || take_.skeleton->format != MotionFormat::bvh) moves = last[j];
+      }
+    }
+    if (moves < 0) continue;
+    const Twist& twist = twists[static_cast<std::size_t>(moves)];
+    const Eigen::Vector3d place_of_joint = before[j].position - before[0].position;
+    const Eigen::Vector3d expected = twist.tail<3>() + twist.head<3>().cross(place_of_joint);
+    EXPECT_LT((after[j].position - before[j].position - expected).norm(), 1e-6) << joint.name;
+  }
+}
+
+TEST_P(PoseMetrics, WeightsArePositiveAndGrowWithTheJoints) {
+  PoseMetric metric(*take_.skeleton);
+  std::vector<double> weights(take_.skeleton->joints.size(), 1.0);
+  metric.measure(frame(take_.channels, 0), weights, metrics_);
+  const std::vector<ChannelMetric> light = metrics_;
+  for (double& weight : weights) weight = 4;
+  metric.measure(frame(take_.channels, 0), weights, metrics_);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    EXPECT_GT(light[i].weight, 0);
+    EXPECT_NEAR(metrics_[i].weight / light[i].weight, 4, 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, PoseMetrics,
+                         testing::Values(MotionFormat::bvh, MotionFormat::asf_amc));
+
+}  // namespace
+}  // namespace reprise
