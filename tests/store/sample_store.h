@@ -119,12 +119,12 @@ inline std::string everything(const ArchiveStore& store) {
     }
     const std::int64_t ids[] = {info.id};
     for (const ClipRecord& clip : store.clips(ids)) {
-      text += "|" + std::to_string(clip.id) + ":" + std::to_string(clip.frames);
+      text += std::to_string(clip.id) + ":" + std::to_string(clip.frames) + "|";
       text += std::to_string(
           store.clips_with_prefix(hexadecimal(Bytes{static_cast<std::uint8_t>(clip.id >> 56)}))
               .size());
     }
-    text += "|" + std::to_string(store.find_take(info.name).has_value()) + "\n";
+    text += std::to_string(store.find_take(info.name).has_value()) + "\n";
   }
   for (const SkeletonInfo& skeleton : store.skeletons())
     text += skeleton.root + std::to_string(skeleton.takes);
