@@ -29,11 +29,22 @@ enum class FidelityTier : std::uint8_t {
 /// "preview", "standard", "fine", "exact", "bound".
 std::string tier_name(FidelityTier tier);
 
-struct Fidelity {
-  FidelityTier tier = FidelityTier::preview;
-  double limit_mm =
-      20.0;  ///< preview: the take's mean joint error; bound: of every joint in every frame
+/// What the tiers promise (docs/measures.md).
+struct FidelityLimits {
+  static constexpr double preview_mean_mm = 20.0;  ///< mean joint error of a take
+  static constexpr double standard_mm = 10.0;      ///< every joint in every frame
+  static constexpr double fine_mm = 1.0;           ///< the same
+  static constexpr double least_bound_mm = 0.05, greatest_bound_mm = 100.0;
 };
+
+struct Fidelity {
+  FidelityTier tier = FidelityTier::standard;
+  /// preview: of the take's mean joint error; exact: 0; others: of every joint in every frame.
+  double limit_mm = FidelityLimits::standard_mm;
+};
+
+/// A tier with its own limit; `bound` has none.
+Fidelity fidelity_of(FidelityTier tier);
 
 enum class ClipKind : std::uint8_t { primary = 1, repeated = 2, unique = 3 };
 std::string clip_kind_name(ClipKind kind);
@@ -209,9 +220,14 @@ class Archive {
   };
   Selection find(const std::string& id) const;
 
-  /// The decoded motion. Throws Error (damaged).
-  Take extract(const TakeInfo& take) const;
-  Take extract(const TakeInfo& take, FrameRange frames) const;
+  /// The decoded motion, of all that is stored or only as much as `tier` needs. Throws Error
+  /// (damaged; usage where the take is stored with less than `tier`).
+  Take extract(const TakeInfo& take, std::optional<FidelityTier> tier = std::nullopt) const;
+  Take extract(const TakeInfo& take, FrameRange frames,
+               std::optional<FidelityTier> tier = std::nullopt) const;
+  /// The source file's bytes, of a take that is stored as `exact` (usage otherwise). An AMC's ASF
+  /// is its skeleton's source_text.
+  std::string source_text(const TakeInfo& take) const;
 
   /// Reads and decodes everything; with `against`, measures each take against its source in that
   /// folder and holds it to its fidelity.

@@ -11,6 +11,7 @@
 #include "archive/parallel.h"
 #include "archive/space_builder.h"
 #include "archive/take_identity.h"
+#include "archive/take_layers.h"
 #include "query/error_sketch.h"
 #include "reprise/archive.h"
 #include "reprise/error.h"
@@ -198,14 +199,16 @@ class Ingest {
   CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment) const {
     CodedTake coded;
     try {
-      const Take take = read_again(fresh, options_.read);
+      const auto [take, text] = read_source(fresh, options_.read);
       FittedTake fitted = assignment.fitted
                               ? *assignment.fitted
                               : fit_take(assignment.space->space, assignment.space->model, take,
-                                         options_.fidelity.limit_mm);
+                                         coarse_mean_mm(options_.fidelity));
       coded.kept = fitted.kept;
       if (!coded.kept) return coded;
-      coded.record = make_record(fresh, take, assignment, fitted);
+      coded.record = make_record(
+          fresh, take, assignment,
+          make_layers(options_.fidelity, *assignment.space, take, text, std::move(fitted)));
       coded.clips.push_back(
           whole_take_clip(fresh.outline.content, take.frames(), bytes_of_layers(coded.record)));
     } catch (const Error& error) {
@@ -216,13 +219,11 @@ class Ingest {
   }
 
   TakeRecord make_record(const FreshTake& fresh, const Take& take,
-                         const SpaceAssignment& assignment, FittedTake& fitted) const {
+                         const SpaceAssignment& assignment, TakeLayers coded) const {
     TakeRecord record;
-    const double mean_mm = options_.fidelity.limit_mm;
-    record.layers = {{LayerKind::coefficients, mean_mm, 0,
-                      encode_motion(assignment.space->model, fitted.shape, fitted.motion)}};
-    record.spent = {{"curves", record.layers[0].data.size()}};
-    record.error_quantiles = sketch_distances(fitted.distances);
+    record.layers = std::move(coded.layers);
+    record.spent = std::move(coded.spent);
+    record.error_quantiles = sketch_distances(coded.distances);
     record.proportions = assignment.proportions;
     record.space = assignment.space_id;
     TakeInfo& info = record.info;
@@ -236,7 +237,7 @@ class Ingest {
     info.frames = take.frames();
     info.fidelity = options_.fidelity;
     info.text_bytes = fresh.outline.text_bytes;
-    info.error_mm = fitted.errors;
+    info.error_mm = coded.errors;
     info.source_digest = fresh.outline.source_digest;
     return record;
   }

@@ -120,7 +120,7 @@ MarkerMoments SpaceBuilder::moments_of(const MarkerLayout& layout, const Members
 }
 
 SpaceRecord SpaceBuilder::train(std::int64_t skeleton, const Members& members) {
-  const double mean_mm = options_.fidelity.limit_mm;
+  const double mean_mm = coarse_mean_mm(options_.fidelity);
   const Skeleton reference = reference_skeleton(store_, skeleton);
   const Members training = spread(members, most_training_takes);
   LayoutEvidence evidence;
@@ -151,7 +151,7 @@ std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& spac
       chosen.size(), options_.jobs,
       [&](std::size_t c) {
         const Take take = read_again((*takes_)[chosen[c]], options_.read);
-        return fit_take(space, model, take, options_.fidelity.limit_mm);
+        return fit_take(space, model, take, coarse_mean_mm(options_.fidelity));
       },
       [&](std::size_t c, FittedTake fitted) {
         if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));
@@ -202,7 +202,7 @@ void SpaceBuilder::keep_fits(std::int64_t space) {
 void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& members) {
   const std::int64_t base_id = assignments_.at((*takes_)[members.front()].file.name).space_id;
   const auto base = assignments_.at((*takes_)[members.front()].file.name).space;
-  const double most = FitConstants::most_residual * options_.fidelity.limit_mm;
+  const double most = FitConstants::most_residual * coarse_mean_mm(options_.fidelity);
   Members unfit;
   produce_in_order(
       members.size(), options_.jobs,
@@ -216,7 +216,7 @@ void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& mem
         if (unfits) unfit.push_back(members[m]);
       });
   if (unfit.empty()) return;
-  const double mean_mm = options_.fidelity.limit_mm;
+  const double mean_mm = coarse_mean_mm(options_.fidelity);
   const MarkerMoments moments = moments_of(base->space.layout, unfit, true);
   const CoefficientSpace space = extend_space(base->space, moments, mean_mm);
   const int known = static_cast<int>(base->space.axes.cols());

@@ -102,6 +102,11 @@ double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers) {
       (static_cast<double>(std::max<Eigen::Index>(markers.rows(), 1)) * space.layout.point_count));
 }
 
+double coarse_mean_mm(const Fidelity& fidelity) {
+  return fidelity.tier == FidelityTier::preview ? fidelity.limit_mm
+                                                : FidelityLimits::preview_mean_mm;
+}
+
 FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
                     double mean_mm) {
   FittedTake fitted = StepSearch(space, model, take, mean_mm).run();

@@ -26,6 +26,9 @@ struct FittedTake {
 /// Root mean square distance (mm a point) that the axes of a space leave of a take's markers.
 double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers);
 
+/// The mean error (mm) that the coarsest layer of a take keeps, whatever the layers above it bring.
+double coarse_mean_mm(const Fidelity& fidelity);
+
 /// `model` is where the contexts of the space's takes start.
 FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
                     double mean_mm);

@@ -10,10 +10,9 @@ namespace {
 
 /// Reads and digests; the digest is of what was read, so that a file that changes in between is
 /// noticed.
-Take read_with_digest(const InputFile& file, const ReadOptions& options, std::string& digest,
-                      std::uint64_t& text_bytes) {
-  const std::string text = read_whole_file(file.path);
-  text_bytes = text.size();
+SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
+                            std::string& digest) {
+  std::string text = read_whole_file(file.path);
   Hasher hasher;
   hasher.add(text);
   Take take;
@@ -37,14 +36,15 @@ Take read_with_digest(const InputFile& file, const ReadOptions& options, std::st
       throw Error(ErrorCode::rejected_input, "a value is not a finite number", {name});
     }
   }
-  return take;
+  return {std::move(take), std::move(text)};
 }
 
 }  // namespace
 
 TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   TakeOutline outline;
-  const Take take = read_with_digest(file, options, outline.source_digest, outline.text_bytes);
+  const auto [take, text] = read_with_digest(file, options, outline.source_digest);
+  outline.text_bytes = text.size();
   if (take.frames() == 0) {
     throw Error(ErrorCode::rejected_input, "the file has no frames", {file.path.string()});
   }
@@ -58,15 +58,18 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   return outline;
 }
 
-Take read_again(const FreshTake& fresh, const ReadOptions& options) {
+SourceTake read_source(const FreshTake& fresh, const ReadOptions& options) {
   std::string digest;
-  std::uint64_t text_bytes = 0;
-  Take take = read_with_digest(fresh.file, options, digest, text_bytes);
+  SourceTake source = read_with_digest(fresh.file, options, digest);
   if (digest != fresh.outline.source_digest) {
     throw Error(ErrorCode::rejected_input, "the file changed while it was being read",
                 {fresh.file.path.string()}, "run the ingest again");
   }
-  return take;
+  return source;
+}
+
+Take read_again(const FreshTake& fresh, const ReadOptions& options) {
+  return read_source(fresh, options).take;
 }
 
 Digest content_digest(const Skeleton& skeleton, const ChannelMatrix& channels, long first,

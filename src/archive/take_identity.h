@@ -38,6 +38,13 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options);
 /// outlined.
 Take read_again(const FreshTake& fresh, const ReadOptions& options);
 
+/// The same with the motion file's text beside it.
+struct SourceTake {
+  Take take;
+  std::string text;
+};
+SourceTake read_source(const FreshTake& fresh, const ReadOptions& options);
+
 /// Structure of the skeleton and channel values of frames [first, first + frames).
 Digest content_digest(const Skeleton& skeleton, const ChannelMatrix& channels, long first,
                       long frames);

@@ -15,27 +15,18 @@ namespace fs = std::filesystem;
 namespace reprise::cli {
 namespace {
 
-FidelityTier parse_fidelity(const std::string& text) {
-  for (const FidelityTier tier :
-       {FidelityTier::preview, FidelityTier::standard, FidelityTier::fine, FidelityTier::exact}) {
-    if (text == tier_name(tier)) return tier;
-  }
-  throw Error(ErrorCode::usage,
-              "--fidelity takes preview, standard, fine or exact, not \"" + printable(text) + "\"");
-}
-
 /// Writes takes into files, each AMC with its ASF.
 class MotionWriter {
  public:
   explicit MotionWriter(bool overwrite) : overwrite_(overwrite) {}
 
-  /// Returns the files written, the motion first.
-  std::vector<fs::path> write(const Take& take, const fs::path& target) {
+  /// Returns the files written, the motion (`text`) first.
+  std::vector<fs::path> write(const Take& take, const std::string& text, const fs::path& target) {
     std::vector<fs::path> files{target};
     if (take.skeleton->format == MotionFormat::asf_amc) {
       files.push_back(write_skeleton(*take.skeleton, target));
     }
-    write_file_atomically(target, write_motion(take), overwrite_);
+    write_file_atomically(target, text, overwrite_);
     return files;
   }
 
@@ -86,11 +77,22 @@ Json entry_of(const PlannedExtract& entry, const std::vector<fs::path>& files) {
   return json;
 }
 
-Take decode(const Archive& archive, const PlannedExtract& entry) {
-  if (entry.frames.begin == 0 && entry.frames.end == entry.take.frames) {
-    return archive.extract(entry.take);
-  }
-  return archive.extract(entry.take, entry.frames);
+bool is_whole(const PlannedExtract& entry) {
+  return entry.frames.begin == 0 && entry.frames.end == entry.take.frames;
+}
+
+Take decode(const Archive& archive, const PlannedExtract& entry,
+            std::optional<FidelityTier> fidelity) {
+  if (is_whole(entry)) return archive.extract(entry.take, fidelity);
+  return archive.extract(entry.take, entry.frames, fidelity);
+}
+
+/// The file's text: the source's own where it is stored and asked for, whole.
+std::string text_of(const Archive& archive, const PlannedExtract& entry, const Take& take,
+                    std::optional<FidelityTier> fidelity) {
+  const bool exact = entry.take.fidelity.tier == FidelityTier::exact &&
+                     fidelity.value_or(FidelityTier::exact) == FidelityTier::exact;
+  return exact && is_whole(entry) ? archive.source_text(entry.take) : write_motion(take);
 }
 
 /// The paths of all motion files, each checked to be inside `folder` and, unless `overwrite`, not
@@ -129,8 +131,7 @@ void ExtractCommand::setup(CLI::App& app) {
          "The same in seconds")
       ->type_name("A:B");
   app.add_option_function<std::string>(
-         "--fidelity",
-         [this](const std::string& text) { request_.fidelity = parse_fidelity(text); },
+         "--fidelity", [this](const std::string& text) { request_.fidelity = parse_tier(text); },
          "A fidelity that is not higher than the stored one")
       ->type_name("TIER");
   app.add_option_function<std::string>(
@@ -162,7 +163,8 @@ ExitCode ExtractCommand::run(Console& console) {
   const Archive archive(archive_);
   const std::vector<PlannedExtract> plan = plan_extract(archive, request_);
   if (file_ == "-") {
-    console.bytes(write_motion(decode(archive, plan.front())));
+    const Take take = decode(archive, plan.front(), request_.fidelity);
+    console.bytes(text_of(archive, plan.front(), take, request_.fidelity));
     return exit_done;
   }
   std::vector<fs::path> targets;
@@ -179,9 +181,10 @@ ExitCode ExtractCommand::run(Console& console) {
   for (std::size_t i = 0; i < plan.size(); ++i) {
     InterruptionGuard::check();
     bar.show({i, plan.size(), plan[i].take.name});
-    const Take take = decode(archive, plan[i]);
+    const Take take = decode(archive, plan[i], request_.fidelity);
+    const std::string text = text_of(archive, plan[i], take, request_.fidelity);
     if (!folder_.empty()) fs::create_directories(targets[i].parent_path());
-    const std::vector<fs::path> files = writer.write(take, targets[i]);
+    const std::vector<fs::path> files = writer.write(take, text, targets[i]);
     for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
     entries.push_back(entry_of(plan[i], files));
   }

@@ -19,8 +19,15 @@ std::string clip_file_name(const TakeInfo& take, const ClipInfo& clip) {
   return name + "_" + clip.id + extension;
 }
 
+/// Whether what is stored keeps the promise of a tier.
+bool holds(const Fidelity& stored, FidelityTier asked) {
+  if (stored.tier == FidelityTier::exact || asked == FidelityTier::preview) return true;
+  if (stored.tier == FidelityTier::preview || asked == FidelityTier::exact) return false;
+  return stored.limit_mm <= fidelity_of(asked).limit_mm;
+}
+
 void check_wishes(const TakeInfo& take, const ExtractRequest& request) {
-  if (request.fidelity && *request.fidelity > take.fidelity.tier) {
+  if (request.fidelity && !holds(take.fidelity, *request.fidelity)) {
     throw Error(ErrorCode::usage,
                 fmt::format("{} is stored as {}; it cannot be extracted as {}", take.name,
                             tier_name(take.fidelity.tier), tier_name(*request.fidelity)));

@@ -48,6 +48,7 @@ Json archive_document(const ArchiveInfo& info, const std::vector<std::string>& s
 }
 
 std::string limit_text(const Fidelity& fidelity) {
+  if (fidelity.tier == FidelityTier::exact) return "exact, the source byte for byte";
   return fmt::format("{}, {} at most {} mm", tier_name(fidelity.tier),
                      fidelity.tier == FidelityTier::preview ? "mean error" : "every joint",
                      fidelity.limit_mm);

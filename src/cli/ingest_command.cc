@@ -19,12 +19,6 @@ constexpr double least_mean_mm = 0.001;
 constexpr double greatest_mean_mm = 10000;
 constexpr std::uint64_t greatest_jobs = 1024;
 
-[[noreturn]] void refuse_fidelity(const std::string& asked) {
-  throw Error(ErrorCode::usage,
-              fmt::format("{} is not available: preview is the only fidelity yet", asked), {},
-              "--fidelity preview, which is the default, with --mean-mm for its mean error");
-}
-
 /// The prefix without the slashes at its end. Names in an archive are relative and have no "..".
 std::string checked_prefix(std::string prefix) {
   prefix.erase(prefix.find_last_not_of('/') + 1);
@@ -89,19 +83,17 @@ void IngestCommand::setup(CLI::App& app) {
   add_many(app, "PATH", paths_, "BVH and AMC files, or folders that are searched through")
       ->required();
   app.add_option_function<std::string>(
-         "--fidelity",
-         [](const std::string& text) {
-           if (text != "preview") refuse_fidelity("fidelity \"" + printable(text) + "\"");
-         },
-         "How faithful the takes are stored: preview, the only one yet")
+         "--fidelity", [this](const std::string& text) { tier_ = parse_tier(text); },
+         "How faithful takes are stored: preview (mean error at most 20 mm), standard (the "
+         "default: "
+         "every joint in every frame within 10 mm), fine (within 1 mm) or exact (byte for byte)")
       ->type_name("TIER");
-  app.add_option_function<std::string>(
-         "--bound-mm", [](const std::string&) { refuse_fidelity("a bound of one's own"); },
-         "Not available yet")
-      ->type_name("X")
-      ->group("");
-  add_number(app, "--mean-mm", options_.fidelity.limit_mm, least_mean_mm, greatest_mean_mm,
-             "Greatest mean joint error of a take, in millimetres (default 20)");
+  add_number(app, "--bound-mm", bound_mm_, FidelityLimits::least_bound_mm,
+             FidelityLimits::greatest_bound_mm,
+             "Another bound on every joint in every frame, in millimetres, instead of a TIER");
+  add_number(
+      app, "--mean-mm", mean_mm_, least_mean_mm, greatest_mean_mm,
+      "Greatest mean joint error of a take, in millimetres (default 20); means --fidelity preview");
   options_.jobs = std::max(1U, std::thread::hardware_concurrency());
   add_whole_number(app, "--jobs", options_.jobs, 1, greatest_jobs,
                    "Threads (default: all); the result is the same for any number");
@@ -113,8 +105,8 @@ void IngestCommand::setup(CLI::App& app) {
       ->type_name("P");
   app.add_flag("--replace", options_.replace, "Replace takes that are there with other content");
   app.add_flag("--dry-run", options_.dry_run, "Say what would be done, and write nothing");
-  add_examples(
-      app, {"reprise ingest lib.rpz takes/", "reprise ingest lib.rpz cmu/ --fps 120 --mean-mm 10"});
+  add_examples(app, {"reprise ingest lib.rpz takes/",
+                     "reprise ingest lib.rpz cmu/ --fps 120 --fidelity exact"});
 }
 
 void IngestCommand::check() {
@@ -126,8 +118,21 @@ void IngestCommand::check() {
     }
     options_.paths.emplace_back(path);
   }
+  options_.fidelity = fidelity();
   if (metadata_ == "-") throw Error(ErrorCode::usage, "--metadata takes a file, not stdin");
   if (!metadata_.empty()) options_.metadata = metadata_;
+}
+
+Fidelity IngestCommand::fidelity() const {
+  if (bound_mm_ && tier_) {
+    throw Error(ErrorCode::usage, "--bound-mm is a fidelity of its own; it excludes --fidelity");
+  }
+  if (mean_mm_ && (bound_mm_ || tier_.value_or(FidelityTier::preview) != FidelityTier::preview)) {
+    throw Error(ErrorCode::usage, "--mean-mm is for the fidelity preview");
+  }
+  if (mean_mm_) return {FidelityTier::preview, *mean_mm_};
+  if (bound_mm_) return {FidelityTier::bound, *bound_mm_};
+  return fidelity_of(tier_.value_or(FidelityTier::standard));
 }
 
 ExitCode IngestCommand::run(Console& console) {

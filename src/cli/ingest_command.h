@@ -16,8 +16,14 @@ class IngestCommand : public Command {
   ExitCode run(Console& console) override;
 
  private:
+  /// Throws Error (usage) where options exclude each other.
+  Fidelity fidelity() const;
+
   std::filesystem::path archive_;
   IngestOptions options_;
+  std::optional<FidelityTier> tier_;
+  std::optional<double> bound_mm_;
+  std::optional<double> mean_mm_;
   std::vector<std::string> paths_;
   std::filesystem::path metadata_;
 };

@@ -86,6 +86,14 @@ Interval<double> parse_time_interval(std::string_view option, std::string_view t
   return parse_interval<double>(option, text, greatest_time);
 }
 
+FidelityTier parse_tier(std::string_view text) {
+  for (const FidelityTier tier :
+       {FidelityTier::preview, FidelityTier::standard, FidelityTier::fine, FidelityTier::exact}) {
+    if (text == tier_name(tier)) return tier;
+  }
+  refuse("--fidelity", text, "preview, standard, fine or exact");
+}
+
 MotionFormat parse_motion_format(std::string_view text) {
   for (const MotionFormat format : {MotionFormat::bvh, MotionFormat::asf_amc}) {
     if (text == format_name(format)) return format;

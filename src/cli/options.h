@@ -32,6 +32,9 @@ struct Interval {
 Interval<long> parse_frame_interval(std::string_view option, std::string_view text);
 Interval<double> parse_time_interval(std::string_view option, std::string_view text);
 
+/// "preview", "standard", "fine" or "exact". Throws Error (usage).
+FidelityTier parse_tier(std::string_view text);
+
 /// "bvh" or "amc". Throws Error (usage).
 MotionFormat parse_motion_format(std::string_view text);
 

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <map>
 
-#include "quant/take_codec.h"
 #include "query/archive_impl.h"
 #include "query/error_sketch.h"
-#include "query/stored_forms.h"
+#include "query/take_decoder.h"
 #include "reprise/error.h"
 #include "store/digest.h"
 
@@ -142,24 +141,23 @@ Archive::Selection Archive::find(const std::string& id) const {
   }
 }
 
-Take Archive::extract(const TakeInfo& info) const {
-  const ArchiveStore& store = impl_->store;
-  const TakeRecord record = store.take(info.id);
-  Take take = empty_take(impl_->proportions(record.proportions), record.info.format);
-  take.name = record.info.name;
-  const CodedSpace& space = impl_->space(record.space);
-  take.channels = decode_take(space, *take.skeleton, {record.info.frames, record.info.frame_rate},
-                              store.layer(info.id, 0));
-  return take;
+Take Archive::extract(const TakeInfo& info, std::optional<FidelityTier> tier) const {
+  const TakeRecord record = impl_->store.take(info.id);
+  return decode_layer(*impl_, record, layer_for(record, tier));
 }
 
-Take Archive::extract(const TakeInfo& info, FrameRange frames) const {
+std::string Archive::source_text(const TakeInfo& info) const {
+  return decode_source_text(*impl_, impl_->store.take(info.id));
+}
+
+Take Archive::extract(const TakeInfo& info, FrameRange frames,
+                      std::optional<FidelityTier> tier) const {
   if (frames.begin < 0 || frames.begin >= frames.end || frames.end > info.frames) {
     throw Error(ErrorCode::usage,
                 "frames " + std::to_string(frames.begin) + " to " + std::to_string(frames.end) +
                     " are not in the take, which has " + std::to_string(info.frames));
   }
-  Take take = extract(info);
+  Take take = extract(info, tier);
   const ChannelMatrix part = take.channels.middleRows(frames.begin, frames.end - frames.begin);
   take.channels = part;
   take.layout.first_frame_number += frames.begin;

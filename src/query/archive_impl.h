@@ -9,8 +9,9 @@
 
 namespace reprise {
 
-struct Archive::Impl {
-  explicit Impl(const std::filesystem::path& path) : store(ArchiveStore::open_for_reading(path)) {}
+struct OpenArchive {
+  explicit OpenArchive(const std::filesystem::path& path)
+      : store(ArchiveStore::open_for_reading(path)) {}
 
   const CodedSpace& space(std::int64_t id) {
     const auto known = spaces.find(id);
@@ -27,6 +28,10 @@ struct Archive::Impl {
   ArchiveStore store;
   std::map<std::int64_t, CodedSpace> spaces;
   std::map<std::int64_t, ProportionsRecord> proportions_read;
+};
+
+struct Archive::Impl : OpenArchive {
+  using OpenArchive::OpenArchive;
 };
 
 }  // namespace reprise

@@ -1,29 +1,15 @@
 // Reads and decodes everything, and holds it against its sources where they are at hand.
-#include <cmath>
 #include <map>
 
 #include "query/archive_impl.h"
+#include "query/take_decoder.h"
 #include "reprise/error.h"
+#include "store/digest.h"
 
 namespace reprise {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The promise of a take, as a limit on what comparing it with its source may show.
-bool is_within(const Fidelity& fidelity, const PositionErrors& errors) {
-  switch (fidelity.tier) {
-    case FidelityTier::preview:
-      return errors.mean <= fidelity.limit_mm;
-    default:
-      return errors.max <= fidelity.limit_mm;
-  }
-}
-
-std::string broken_promise(const Fidelity& fidelity, const PositionErrors& errors) {
-  return "its mean error is " + std::to_string(errors.mean) + " mm, more than the " +
-         std::to_string(fidelity.limit_mm) + " mm of its fidelity";
-}
 
 /// Motion files below a folder by the names that an ingest of it gives takes, and by trailing parts
 /// of them.
@@ -49,6 +35,79 @@ const fs::path* source_of(const std::map<std::string, fs::path>& sources, const 
   return nullptr;
 }
 
+/// What a layer promises and does not keep; empty where it keeps it.
+std::string broken_promise(const LayerRecord& layer, const PositionErrors& errors) {
+  const bool mean = layer.kind == LayerKind::coefficients;
+  const double measured = mean ? errors.mean : errors.max;
+  if (measured <= layer.limit_mm) return {};
+  return std::string("its ") + (mean ? "mean" : "greatest") + " error is " +
+         std::to_string(measured) + " mm, more than the " + std::to_string(layer.limit_mm) +
+         " mm of its fidelity";
+}
+
+/// Decodes every layer of a take, and holds each against the source where there is one.
+class TakeCheck {
+ public:
+  TakeCheck(OpenArchive& archive, const TakeInfo& info)
+      : archive_(archive), record_(archive.store.take(info.id)) {}
+
+  std::vector<Damage> run(const fs::path* source, const ReadOptions& read) {
+    std::optional<Take> original;
+    if (source != nullptr) original = read_motion_file(*source, read);
+    for (std::size_t i = 0; i < record_.layers.size(); ++i) {
+      const Take decoded = decode_layer(archive_, record_, i);
+      if (!decoded.channels.allFinite()) note("it decodes to numbers that are not finite", false);
+      if (original) compare(*original, decoded, record_.layers[i]);
+      if (record_.layers[i].kind == LayerKind::text) check_text(decoded, source);
+    }
+    return std::move(damaged_);
+  }
+
+  /// Of the finest layer, once a source was compared with: frames x joints, mm.
+  const std::vector<float>& distances() const { return distances_; }
+
+ private:
+  void note(std::string why, bool outside_fidelity) {
+    damaged_.push_back({record_.info.name, std::move(why), outside_fidelity});
+  }
+
+  void compare(const Take& original, const Take& decoded, const LayerRecord& layer) {
+    if (original.frames() != decoded.frames()) {
+      if (damaged_.empty()) note("its source has another number of frames", true);
+      return;
+    }
+    if (!same_structure(*original.skeleton, *decoded.skeleton)) {
+      if (damaged_.empty()) note("its source has another skeleton", true);
+      return;
+    }
+    distances_ = joint_distances(joint_positions(*original.skeleton, original.channels),
+                                 joint_positions(*decoded.skeleton, decoded.channels));
+    std::vector<float> sorted = distances_;
+    const std::string broken = broken_promise(layer, summarise_distances(sorted));
+    if (!broken.empty()) note(broken, true);
+  }
+
+  /// The digest that was taken of the source tells whether its bytes come back.
+  void check_text(const Take& decoded, const fs::path* source) {
+    const std::string text = decode_source_text(archive_, record_);
+    Hasher hasher;
+    hasher.add(text);
+    if (decoded.skeleton->format == MotionFormat::asf_amc) {
+      hasher.add(decoded.skeleton->source_text);
+    }
+    if (hexadecimal(hasher.finish()) != record_.info.source_digest) {
+      note("its text is not that of its source", false);
+    } else if (source != nullptr && text != read_whole_file(*source)) {
+      note("its source is not what was taken in", true);
+    }
+  }
+
+  OpenArchive& archive_;
+  TakeRecord record_;
+  std::vector<Damage> damaged_;
+  std::vector<float> distances_;
+};
+
 }  // namespace
 
 VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadOptions& read,
@@ -73,28 +132,13 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       throw Error(ErrorCode::interrupted, "stopped");
     }
     try {
-      const Take decoded = extract(all[i]);
-      if (!decoded.channels.allFinite()) {
-        report.damaged.push_back({all[i].name, "it decodes to numbers that are not finite"});
-      }
-      if (!against) continue;
-      const fs::path* source = source_of(sources, all[i].name);
-      if (source == nullptr) {
+      const fs::path* source = against ? source_of(sources, all[i].name) : nullptr;
+      TakeCheck check(*impl_, all[i]);
+      for (Damage& damage : check.run(source, read)) report.damaged.push_back(std::move(damage));
+      if (against && source == nullptr) {
         report.damaged.push_back({all[i].name, "its source is not in the folder", true});
-        continue;
       }
-      const Take original = read_motion_file(*source, read);
-      const Comparison comparison = compare_takes(original, decoded);
-      if (comparison.missing_frames != 0) {
-        report.damaged.push_back({all[i].name, "its source has another number of frames", true});
-      }
-      if (!is_within(all[i].fidelity, comparison.errors)) {
-        report.damaged.push_back(
-            {all[i].name, broken_promise(all[i].fidelity, comparison.errors), true});
-      }
-      const auto own = joint_distances(joint_positions(*original.skeleton, original.channels),
-                                       joint_positions(*decoded.skeleton, decoded.channels));
-      distances.insert(distances.end(), own.begin(), own.end());
+      distances.insert(distances.end(), check.distances().begin(), check.distances().end());
     } catch (const Error& error) {
       if (error.code() == ErrorCode::interrupted) throw;
       report.damaged.push_back({all[i].name, error.reason()});

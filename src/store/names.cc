@@ -3,6 +3,19 @@
 
 namespace reprise {
 
+Fidelity fidelity_of(FidelityTier tier) {
+  switch (tier) {
+    case FidelityTier::preview:
+      return {tier, FidelityLimits::preview_mean_mm};
+    case FidelityTier::fine:
+      return {tier, FidelityLimits::fine_mm};
+    case FidelityTier::exact:
+      return {tier, 0};
+    default:
+      return {tier, FidelityLimits::standard_mm};
+  }
+}
+
 std::string tier_name(FidelityTier tier) {
   switch (tier) {
     case FidelityTier::preview:

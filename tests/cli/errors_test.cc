@@ -57,16 +57,25 @@ TEST_F(ErrorsTest, ExtractChecksItsArgumentsFirst) {
   EXPECT_TRUE(fs::is_empty(folder()));
 }
 
-TEST_F(ErrorsTest, OnlyPreviewIsThereYet) {
-  for (const char* tier : {"standard", "fine", "exact"}) {
-    expect_usage({"ingest", "lib.rpz", "takes", "--fidelity", tier},
-                 "preview is the only fidelity");
-  }
-  expect_usage({"ingest", "lib.rpz", "takes", "--bound-mm", "5"}, "preview is the only fidelity");
+TEST_F(ErrorsTest, FidelitiesThatDoNotGoTogetherAreRefused) {
+  const auto refused = [&](std::vector<std::string> more, const std::string& why) {
+    std::vector<std::string> words = {"ingest", "lib.rpz", "takes"};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_usage(words, why);
+  };
+  refused({"--fidelity", "best"}, "--fidelity");
+  refused({"--fidelity", "fine", "--bound-mm", "5"}, "excludes");
+  refused({"--fidelity", "exact", "--mean-mm", "5"}, "--mean-mm");
+  refused({"--bound-mm", "5", "--mean-mm", "5"}, "--mean-mm");
+  refused({"--bound-mm", "0.01"}, "--bound-mm");
+  refused({"--bound-mm", "101"}, "--bound-mm");
+}
+
+TEST_F(ErrorsTest, WhatIsNotStoredCannotBeExtracted) {
   make_library();
   const std::string take = take_names().front();
   expect_usage({"extract", "lib.rpz", take, "-o", "x.bvh", "--fidelity", "fine"},
-               "stored as preview");
+               "stored as standard");
   expect_usage({"extract", "lib.rpz", take, "-o", "x.bvh", "--format", "amc"}, "bvh");
   EXPECT_FALSE(fs::exists(folder() / "x.bvh"));
   output({"extract", "lib.rpz", take, "-o", "x.bvh", "--fidelity", "preview", "--format", "bvh"});

@@ -77,7 +77,7 @@ TEST_F(JsonTest, StatsAddUp) {
   EXPECT_EQ(parts, stats["archive_bytes"]);
   EXPECT_EQ(stats["archive_bytes"], std::filesystem::file_size(folder() / "lib.rpz"));
   EXPECT_EQ(stats["takes"], 4);
-  EXPECT_EQ(stats["fidelity"], json({{"preview", 4}}));
+  EXPECT_EQ(stats["fidelity"], json({{"standard", 4}}));
   EXPECT_NEAR(stats["ratio"]["raw"].get<double>(),
               stats["raw_bytes"].get<double>() / stats["archive_bytes"].get<double>(), 1e-9);
   std::uint64_t text = 0;

@@ -1,0 +1,93 @@
+#include "query/take_decoder.h"
+
+#include "exact/text_codec.h"
+#include "quant/take_codec.h"
+#include "refine/refinement.h"
+#include "reprise/error.h"
+
+namespace reprise {
+namespace {
+
+bool keeps(const LayerRecord& layer, FidelityTier tier) {
+  switch (tier) {
+    case FidelityTier::preview:
+      return true;
+    case FidelityTier::standard:
+      return layer.kind == LayerKind::text ||
+             (layer.kind == LayerKind::refinement && layer.limit_mm <= FidelityLimits::standard_mm);
+    case FidelityTier::fine:
+      return layer.kind == LayerKind::text ||
+             (layer.kind == LayerKind::refinement && layer.limit_mm <= FidelityLimits::fine_mm);
+    default:
+      return layer.kind == LayerKind::text;
+  }
+}
+
+/// What a BVH begins with is stored with its skeleton.
+std::string known_text(const Take& take) {
+  return take.skeleton->format == MotionFormat::bvh ? take.skeleton->source_text : std::string();
+}
+
+ChannelMatrix parsed_channels(const Take& empty, const std::string& text, const std::string& name) {
+  try {
+    Take parsed = empty.skeleton->format == MotionFormat::bvh
+                      ? read_bvh(text, name, empty.skeleton->millimetres_per_unit)
+                      : read_amc(text, name, empty.skeleton, empty.frame_rate);
+    if (parsed.channels.cols() == empty.skeleton->channel_count) return std::move(parsed.channels);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
+  }
+  throw Error(ErrorCode::damaged,
+              "the archive is damaged: the text of take '" + name + "' is not what was taken in");
+}
+
+ChannelMatrix channels_of(OpenArchive& archive, const TakeRecord& record, const Take& empty,
+                          std::size_t index) {
+  const LayerRecord& layer = record.layers[index];
+  const Bytes data = archive.store.layer(record.info.id, index);
+  const TakeShape shape{record.info.frames, record.info.frame_rate};
+  switch (layer.kind) {
+    case LayerKind::coefficients:
+      return decode_take(archive.space(record.space), *empty.skeleton, shape, data);
+    case LayerKind::refinement: {
+      if (layer.base == 0) return decode_refinement(*empty.skeleton, shape, nullptr, data, {});
+      const ChannelMatrix lower =
+          channels_of(archive, record, empty, static_cast<std::size_t>(layer.base) - 1);
+      return decode_refinement(*empty.skeleton, shape, &lower, data, {});
+    }
+    case LayerKind::text:
+      return parsed_channels(empty, decode_text(data, known_text(empty)), record.info.name);
+  }
+  throw Error(ErrorCode::damaged, "the archive is damaged: a layer is of no known kind");
+}
+
+}  // namespace
+
+std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier) {
+  if (!tier) return take.layers.size() - 1;
+  for (std::size_t i = 0; i < take.layers.size(); ++i) {
+    if (keeps(take.layers[i], *tier)) return i;
+  }
+  throw Error(ErrorCode::usage, take.info.name + " is stored as " +
+                                    tier_name(take.info.fidelity.tier) +
+                                    "; it cannot be extracted as " + tier_name(*tier));
+}
+
+Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer) {
+  Take take = empty_take(archive.proportions(record.proportions), record.info.format);
+  take.name = record.info.name;
+  take.channels = channels_of(archive, record, take, layer);
+  if (take.frames() != record.info.frames) {
+    throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
+                                        "' has another number of frames than was stored");
+  }
+  return take;
+}
+
+std::string decode_source_text(OpenArchive& archive, const TakeRecord& record) {
+  const std::size_t layer = layer_for(record, FidelityTier::exact);
+  const Take empty = empty_take(archive.proportions(record.proportions), record.info.format);
+  return decode_text(archive.store.layer(record.info.id, layer), known_text(empty));
+}
+
+}  // namespace reprise

@@ -1,0 +1,21 @@
+// The layers of a stored take, decoded.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "query/archive_impl.h"
+
+namespace reprise {
+
+/// The coarsest layer that keeps a tier's promise; without a tier the finest. Throws Error (usage)
+/// where none does.
+std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier);
+
+/// A take as one of its layers has it. Throws Error (damaged).
+Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer);
+
+/// The source file's bytes. Throws Error (usage) where they are not stored, damaged.
+std::string decode_source_text(OpenArchive& archive, const TakeRecord& record);
+
+}  // namespace reprise
