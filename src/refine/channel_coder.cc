@@ -39,83 +39,93 @@ constexpr std::uint32_t bucket_of(std::int32_t magnitude) {
   const int width = std::bit_width(static_cast<std::uint32_t>(magnitude));
   return static_cast<std::uint32_t>(2 * (width - 2) + 2 + ((magnitude >> (width - 2)) & 1));
 }
-static_assert(bucket_of(bucket(17).first) == 17 && bucket_of(4) == 4 && bucket_of(6) == 5 &&
-              bucket_of(8) == 6);
+static_assert(bucket_of(bucket(17).first) == 17 && bucket_of(4) == 4 && bucket_of(6) == 5);
 
-/// Logarithmic bins of sums that count in sixteenths.
-std::uint32_t bin(std::int64_t sum, std::uint32_t count, int per_octave) {
-  if (sum <= 0) return 0;
-  const auto value = static_cast<std::uint64_t>(sum);
-  const auto width = static_cast<int>(std::bit_width(value));
-  std::uint32_t result = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(per_octave);
-  if (per_octave == 2 && width > 1) result += (value >> (width - 2)) & 1;
+/// Magnitudes as contexts see them: in steps of offset 0, with this many bits after the point.
+constexpr int size_bits = 20;
+constexpr std::int32_t most_size = 1 << 16;
+constexpr std::uint64_t root_of_two = 92682;  ///< x 65536
+
+std::uint64_t finer(std::uint64_t size, int half_octaves) {
+  if (half_octaves & 1) size = (size * root_of_two) >> 16;
+  const int octaves = half_octaves >> 1;
+  return octaves >= 0 ? size << octaves : size >> -octaves;
+}
+
+/// Logarithmic bins of sums.
+std::uint32_t bin(std::uint64_t sum, std::uint32_t count, int per_octave) {
+  if (sum == 0) return 0;
+  const auto width = static_cast<int>(std::bit_width(sum));
+  auto result = static_cast<std::uint32_t>(width * per_octave);
+  if (per_octave == 2 && width > 1) result += (sum >> (width - 2)) & 1;
   return std::min(result, count - 1);
 }
+
+using Sizes = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic>;
 
 template <class Io>
 class Walk {
  public:
-  Walk(Io io, const ChannelKnotShape& shape, ChannelKnots& knots, Index channel)
-      : io_(io), shape_(shape), knots_(knots), channel_(channel) {}
+  Walk(Io io, const ChannelKnotShape& shape, const StepGrid& steps, ChannelKnots& knots)
+      : io_(io),
+        shape_(shape),
+        steps_(steps),
+        knots_(knots),
+        sizes_(Sizes::Zero(knots.rows(), knots.cols())) {}
 
   void run() {
-    const Index stride = Index{1} << shape_.levels;
-    std::int32_t before = 0;
-    for (Index f = 0; f < shape_.frames; f += stride)
-      before = code(f, stride, shape_.levels, before);
-    for (int level = shape_.levels - 1; level >= 0; --level) {
-      const Index apart = Index{1} << level;
-      for (Index f = apart; f < shape_.frames; f += 2 * apart) code(f, apart, level, 0);
+    for (channel_ = 0; channel_ < knots_.cols(); ++channel_) {
+      if (steps_.base[static_cast<std::size_t>(channel_)] < 0) continue;
+      const Index stride = Index{1} << shape_.levels;
+      for (Index f = 0; f < shape_.frames; f += stride) code(f, stride, shape_.levels);
+      for (int level = shape_.levels - 1; level >= 0; --level) {
+        const Index apart = Index{1} << level;
+        for (Index f = apart; f < shape_.frames; f += 2 * apart) code(f, apart, level);
+      }
     }
   }
 
  private:
-  std::int64_t magnitude(Index frame, Index channel) const {
-    if (frame < 0 || frame >= shape_.frames || channel < 0) return 0;
-    return std::min<std::int64_t>(std::abs(static_cast<std::int64_t>(knots_(frame, channel))),
-                                  most_knot);
+  std::uint64_t size(Index frame, Index channel) const {
+    return frame < 0 || frame >= shape_.frames || channel < 0 ? 0 : sizes_(frame, channel);
   }
 
-  std::int32_t code(Index f, Index apart, int level, std::int32_t predicted) {
+  void code(Index f, Index apart, int level) {
     const bool coarsest = level == shape_.levels;
     const Index step = coarsest ? apart : 2 * apart;
     const std::uint32_t slot =
         coarsest ? level_slots - 1
                  : std::min<std::uint32_t>(level_slots - 2,
                                            static_cast<std::uint32_t>(level + shape_.first_level));
-    const std::int64_t a = coarsest ? last_ : magnitude(f - step, channel_);
-    const std::int64_t a2 = coarsest ? last2_ : magnitude(f - 2 * step, channel_);
-    const std::int64_t up = coarsest ? 0
-                            : level + 1 == shape_.levels
-                                ? 0
-                                : magnitude(f - apart, channel_) + magnitude(f + apart, channel_);
+    const int offset = steps_.offset(static_cast<std::size_t>(channel_), f);
+    const auto scaled = [&](std::uint64_t sum, int bits) {
+      return finer(sum, offset) >> (size_bits - bits);
+    };
+    const std::uint64_t a = size(f - step, channel_), a2 = size(f - 2 * step, channel_);
+    const std::uint64_t up = coarsest ? 0 : size(f - apart, channel_) + size(f + apart, channel_);
     const Index parent = shape_.parents[static_cast<std::size_t>(channel_)];
     const auto around = [&](Index c) {
-      return coarsest ? 0 : 2 * magnitude(f, c) + magnitude(f - step, c) + magnitude(f + step, c);
+      return 2 * size(f, c) + size(f - step, c) + size(f + step, c);
     };
-    const std::int64_t beside = around(channel_ - 1), chain = around(parent),
-                       beside2 = around(channel_ - 2);
-    const std::int64_t own = 8 * a + 4 * a2 + 2 * up;
-    const std::uint32_t mixed = bin(2 * own + beside + chain + beside2 / 2, bins, 2);
-    base_[0] = mixed * level_slots + slot;
-    base_[1] = bin(own, bins, 2) * few_bins + bin(beside + chain, few_bins, 1);
-    base_[2] = bin(beside * 2 + chain * 2 + beside2, bins, 2) * few_bins + bin(a, few_bins, 1);
+    const std::uint64_t beside = around(channel_ - 1), chain = around(parent),
+                        beside2 = around(channel_ - 2);
+    const std::uint64_t own = 8 * a + 4 * a2 + 2 * up;
+    const std::uint64_t all = 2 * own + beside + chain + beside2 / 2;
+    base_[0] = bin(scaled(all, 0), bins, 2) * level_slots + slot;
+    base_[1] =
+        bin(scaled(own, 0), bins, 2) * few_bins + bin(scaled(beside + chain, 0), few_bins, 1);
+    base_[2] = bin(scaled(beside * 2 + chain * 2 + beside2, 0), bins, 2) * few_bins +
+               bin(scaled(a, 0), few_bins, 1);
     base_[3] =
-        (bin(up, few_bins, 1) * few_bins + bin(a, few_bins, 1)) * few_bins + bin(a2, few_bins, 1);
+        (bin(scaled(up, 0), few_bins, 1) * few_bins + bin(scaled(a, 0), few_bins, 1)) * few_bins +
+        bin(scaled(a2, 0), few_bins, 1);
     base_[4] =
-        std::min<std::uint32_t>(static_cast<std::uint32_t>(channel_), 255) * level_slots + slot;
-    base_[4] %= 4096;
+        (std::min<std::uint32_t>(static_cast<std::uint32_t>(channel_), 255) * level_slots + slot);
     weights_ = slot;
-    const std::int32_t value = static_cast<std::int32_t>(
-        static_cast<std::uint32_t>(knots_(f, channel_)) - static_cast<std::uint32_t>(predicted));
-    const std::int32_t coded = code_value(value);
-    if (coarsest) {
-      last2_ = last_;
-      last_ = std::min<std::int64_t>(std::abs(static_cast<std::int64_t>(coded)), most_knot);
-    }
-    knots_(f, channel_) = static_cast<std::int32_t>(static_cast<std::uint32_t>(predicted) +
-                                                    static_cast<std::uint32_t>(coded));
-    return knots_(f, channel_);
+    knots_(f, channel_) = code_value(knots_(f, channel_));
+    const auto magnitude = static_cast<std::uint64_t>(
+        std::min<std::int64_t>(std::abs(std::int64_t{knots_(f, channel_)}), most_size));
+    sizes_(f, channel_) = finer(magnitude << size_bits, -offset);
   }
 
   bool decide(std::uint32_t kind, bool bit) {
@@ -128,21 +138,19 @@ class Walk {
   }
 
   std::int32_t code_value(std::int32_t value) {
-    const std::int32_t size = std::abs(value);
-    const std::uint32_t goal = bucket_of(size);
+    const std::int32_t magnitude = std::abs(value);
+    const std::uint32_t goal = bucket_of(magnitude);
     std::uint32_t index = 0;
     while (index < last_bucket && decide(std::min(index, decisions - 1), goal > index)) ++index;
     if (index == 0) return 0;
     const Bucket in = bucket(index);
-    std::int32_t rest = size - in.first;
+    const std::int32_t rest = magnitude - in.first;
     std::int32_t known = 0;
     int left = in.bits;
-    for (int modelled = 0; modelled < 2 && left > 0; ++modelled) {
+    for (std::uint32_t modelled = 0; modelled < 2 && left > 0; ++modelled) {
       --left;
-      const bool bit = decide(mantissa_decisions + 2 * std::min(index, decisions - 1) +
-                                  static_cast<std::uint32_t>(modelled),
-                              (rest >> left & 1) != 0);
-      known = known << 1 | static_cast<std::int32_t>(bit);
+      const std::uint32_t kind = mantissa_decisions + 2 * std::min(index, decisions - 1) + modelled;
+      known = known << 1 | static_cast<std::int32_t>(decide(kind, (rest >> left & 1) != 0));
     }
     known = known << left |
             static_cast<std::int32_t>(io_.plain(static_cast<std::uint32_t>(rest), left));
@@ -152,11 +160,12 @@ class Walk {
 
   Io io_;
   const ChannelKnotShape& shape_;
+  const StepGrid& steps_;
   ChannelKnots& knots_;
-  Index channel_;
+  Sizes sizes_;
+  Index channel_ = 0;
   std::array<std::uint32_t, BitModelConstants::inputs> base_{};
   std::uint32_t weights_ = 0;
-  std::int64_t last_ = 0, last2_ = 0;
 };
 
 struct Writer {
@@ -193,13 +202,14 @@ std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
 ChannelCoder::ChannelCoder() : mixer_(table_sizes(), std::size_t{kinds} * level_slots) {}
 
 void ChannelCoder::encode(RangeEncoder& encoder, const ChannelKnotShape& shape,
-                          ChannelKnots knots) {
-  for (Index c = 0; c < knots.cols(); ++c) Walk<Writer>({encoder, mixer_}, shape, knots, c).run();
+                          const StepGrid& steps, ChannelKnots knots) {
+  Walk<Writer>({encoder, mixer_}, shape, steps, knots).run();
 }
 
-ChannelKnots ChannelCoder::decode(RangeDecoder& decoder, const ChannelKnotShape& shape) {
+ChannelKnots ChannelCoder::decode(RangeDecoder& decoder, const ChannelKnotShape& shape,
+                                  const StepGrid& steps) {
   ChannelKnots knots = ChannelKnots::Zero(shape.frames, static_cast<Index>(shape.parents.size()));
-  for (Index c = 0; c < knots.cols(); ++c) Walk<Reader>({decoder, mixer_}, shape, knots, c).run();
+  Walk<Reader>({decoder, mixer_}, shape, steps, knots).run();
   return knots;
 }
 

@@ -8,6 +8,7 @@
 
 #include "quant/bit_model.h"
 #include "quant/range_coder.h"
+#include "refine/step_grid.h"
 
 namespace reprise {
 
@@ -28,9 +29,10 @@ class ChannelCoder {
  public:
   ChannelCoder();
 
-  void encode(RangeEncoder& encoder, const ChannelKnotShape& shape, ChannelKnots knots);
+  void encode(RangeEncoder& encoder, const ChannelKnotShape& shape, const StepGrid& steps,
+              ChannelKnots knots);
   /// Whatever the bytes are, gives some knots.
-  ChannelKnots decode(RangeDecoder& decoder, const ChannelKnotShape& shape);
+  ChannelKnots decode(RangeDecoder& decoder, const ChannelKnotShape& shape, const StepGrid& steps);
 
  private:
   BitMixer mixer_;

@@ -10,8 +10,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Inertia = Eigen::Matrix<double, 6, 6>;
 
-/// Turns that move no joint are still held: as if each joint carried points this far off (mm).
-constexpr double off_bone_mm = 20;
 constexpr double least_weight = 1e-9;
 
 /// Slots of a joint's channels from the root outwards: places, turns, stretch.
@@ -76,8 +74,31 @@ std::vector<int> coding_parents(const Skeleton& skeleton) {
   return parents;
 }
 
-PoseMetric::PoseMetric(const Skeleton& skeleton)
-    : skeleton_(skeleton), frames_(skeleton.joints.size()), inertia_(skeleton.joints.size()) {
+std::vector<int> moving_places(const Skeleton& skeleton) {
+  const std::vector<int> parents = coding_parents(skeleton);
+  std::vector<int> result, last;
+  int place = 0;
+  for (const Joint& joint : skeleton.joints) {
+    const auto count = static_cast<int>(joint.channels.size());
+    const int above = joint.parent < 0 ? -1 : last[static_cast<std::size_t>(joint.parent)];
+    // A BVH joint and a root turn about themselves.
+    int moves = count > 0 ? place + count - 1 : above;
+    if (skeleton.format == MotionFormat::bvh) {
+      const auto turns = static_cast<int>(joint.rotation_order.size());
+      moves = count > turns ? place + count - turns - 1 : above;
+    }
+    place += count;
+    last.push_back(count > 0 ? place - 1 : above);
+    result.push_back(moves);
+  }
+  return result;
+}
+
+PoseMetric::PoseMetric(const Skeleton& skeleton, double off_bone_mm)
+    : skeleton_(skeleton),
+      off_bone_mm_(off_bone_mm),
+      frames_(skeleton.joints.size()),
+      inertia_(skeleton.joints.size()) {
   int place = 0;
   for (const Joint& joint : skeleton.joints) {
     places_.emplace_back();
@@ -120,7 +141,7 @@ void PoseMetric::measure(std::span<const double> channels, std::span<const doubl
           channels[joint.first_channel + joint.rotation_slots[k]] * std::numbers::pi / 180.0);
     }
     if (!joint.rotation_order.empty()) {
-      inertia.topLeftCorner<3, 3>().diagonal().array() += weights[j] * off_bone_mm * off_bone_mm;
+      inertia.topLeftCorner<3, 3>().diagonal().array() += weights[j] * off_bone_mm_ * off_bone_mm_;
     }
     if (!bvh) add_point(inertia, place, weights[j]);
     std::size_t turn = axes.size();

@@ -31,9 +31,14 @@ std::vector<int> coding_order(const Skeleton& skeleton);
 /// For each place in the coding order, the last place before it that it hangs on, or -1.
 std::vector<int> coding_parents(const Skeleton& skeleton);
 
+/// For each joint, the last place in the coding order that moves it, or -1.
+std::vector<int> moving_places(const Skeleton& skeleton);
+
 class PoseMetric {
  public:
-  explicit PoseMetric(const Skeleton& skeleton);
+  /// Turns that move no joint are held, too: as if each turning joint carried points
+  /// `off_bone_mm` away from it.
+  PoseMetric(const Skeleton& skeleton, double off_bone_mm);
 
   /// `channels` is a frame; `weights` one number a joint. Fills one metric a channel.
   void measure(std::span<const double> channels, std::span<const double> weights,
@@ -41,6 +46,7 @@ class PoseMetric {
 
  private:
   const Skeleton& skeleton_;
+  double off_bone_mm_;
   std::vector<std::vector<int>> places_;  ///< of each joint's channels in the coding order
   std::vector<JointFrame> frames_;
   std::vector<Eigen::Matrix<double, 6, 6>> inertia_;

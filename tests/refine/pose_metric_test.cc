@@ -44,7 +44,7 @@ TEST_P(PoseMetrics, ChannelsComeAfterWhatTheyHangOn) {
 
 /// A channel's motion is what forward kinematics does, to first order.
 TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
-  PoseMetric metric(*take_.skeleton);
+  PoseMetric metric(*take_.skeleton, 20);
   const std::vector<double> weights(take_.skeleton->joints.size(), 1.0);
   const std::vector<int> order = coding_order(*take_.skeleton);
   const std::vector<int> parents = coding_parents(*take_.skeleton);
@@ -63,22 +63,10 @@ TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
     twists[i] += metrics_[i].motion * error;
   }
   forward_kinematics(*take_.skeleton, frame(moved, 0), after);
-  // The last channel that moves each joint: its own last one, but a BVH joint's turns move only
-  // what hangs on it.
-  std::size_t place = 0;
-  std::vector<int> last(take_.skeleton->joints.size(), -1);
+  const std::vector<int> last = moving_places(*take_.skeleton);
   for (std::size_t j = 0; j < last.size(); ++j) {
     const Joint& joint = take_.skeleton->joints[j];
-    last[j] = joint.parent < 0 ? -1 : last[static_cast<std::size_t>(joint.parent)];
-    int moves = last[j];
-    for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-      last[j] = static_cast<int>(place++);
-      const bool turn = is_rotation(joint.channels[static_cast<std::size_t>(
-          order[static_cast<std::size_t>(last[j])] - joint.first_channel)]);
-      if (!turn || joint.parent >= 0) {
-        if (!turn || take_.skeleton->format != MotionFormat::bvh) moves = last[j];
-      }
-    }
+    const int moves = last[j];
     if (moves < 0) continue;
     const Twist& twist = twists[static_cast<std::size_t>(moves)];
     const Eigen::Vector3d place_of_joint = before[j].position - before[0].position;
@@ -88,7 +76,7 @@ TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
 }
 
 TEST_P(PoseMetrics, WeightsArePositiveAndGrowWithTheJoints) {
-  PoseMetric metric(*take_.skeleton);
+  PoseMetric metric(*take_.skeleton, 20);
   std::vector<double> weights(take_.skeleton->joints.size(), 1.0);
   metric.measure(frame(take_.channels, 0), weights, metrics_);
   const std::vector<ChannelMetric> light = metrics_;

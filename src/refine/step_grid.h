@@ -1,0 +1,61 @@
+// How finely each knot of each channel is rounded: a step a channel, made finer or coarser for the
+// channels of a joint during a stretch of time.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "quant/range_coder.h"
+#include "quant/take_codec.h"
+#include "reprise/model/skeleton.h"
+
+namespace reprise {
+
+/// Steps are powers of 2^(1/8) of a degree or of the file's unit of length.
+struct StepConstants {
+  static constexpr int one = 320;  ///< index of the step 1
+  static constexpr int most = 511;
+  static constexpr int per_octave = 8;
+  static constexpr int per_offset = 4;  ///< an offset is half an octave
+  static constexpr int least_offset = -8, most_offset = 40;
+};
+
+/// The step of an index, cut to 0 .. most.
+double step_of(int index);
+/// The index of the step nearest to a positive number.
+int step_index(double step);
+
+class StepGrid {
+ public:
+  StepGrid() = default;
+  StepGrid(const Skeleton& skeleton, long frames, int levels);
+
+  /// Stretches of time reach half-way between the coarsest knots.
+  Eigen::Index block(Eigen::Index frame) const { return (frame + half_) >> levels_; }
+  Eigen::Index first_frame(Eigen::Index block) const { return (block << levels_) - half_; }
+  int group(std::size_t place) const { return groups_[place]; }
+  int offset(std::size_t place, Eigen::Index frame) const {
+    return offsets(block(frame), groups_[place]);
+  }
+  double step(std::size_t place, Eigen::Index frame) const {
+    return step_of(base[place] - StepConstants::per_offset * offset(place, frame));
+  }
+
+  void encode(RangeEncoder& encoder) const;
+  /// False: the bytes are not a grid's.
+  bool decode(RangeDecoder& decoder);
+
+  /// Of each channel in coding order; -1: its numbers are stored as they are.
+  std::vector<int> base;
+  /// blocks x joints with channels: half octaves finer.
+  Eigen::Matrix<std::int8_t, Eigen::Dynamic, Eigen::Dynamic> offsets;
+
+ private:
+  int levels_ = 0;
+  Eigen::Index half_ = 0;
+  std::vector<int> groups_;   ///< of each channel
+  std::vector<int> parents_;  ///< of each group: the group it hangs on, or -1
+};
+
+}  // namespace reprise
