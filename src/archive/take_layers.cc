@@ -6,17 +6,12 @@
 namespace reprise {
 namespace {
 
-/// The bounds that the refinements of a fidelity keep one after another; none for a preview. What
-/// keeps a finer bound also holds `standard`, so that a reader who wants no more reads no more.
-std::vector<double> bounds_of(const Fidelity& fidelity) {
-  switch (fidelity.tier) {
-    case FidelityTier::preview:
-    case FidelityTier::exact:
-      return {};
-    default:
-      if (fidelity.limit_mm >= FidelityLimits::standard_mm) return {fidelity.limit_mm};
-      return {FidelityLimits::standard_mm, fidelity.limit_mm};
-  }
+/// The bound that the refinement of a fidelity keeps; nothing where it has none. A finer bound is
+/// coded on its own, since on top of `standard` it takes a quarter more (docs/findings).
+std::optional<double> bound_of(const Fidelity& fidelity) {
+  const bool bounded =
+      fidelity.tier != FidelityTier::preview && fidelity.tier != FidelityTier::exact;
+  return bounded ? std::optional(fidelity.limit_mm) : std::nullopt;
 }
 
 class LayerMaker {
@@ -30,18 +25,11 @@ class LayerMaker {
     made_.distances = std::move(fitted.distances);
   }
 
-  void add_refinements(const std::vector<double>& bounds) {
-    const PositionMatrix positions = joint_positions(*take_.skeleton, take_.channels);
-    ChannelMatrix lower;
-    int base = 0;
-    for (const double bound : bounds) {
-      Refinement refined = refine(take_, base > 0 ? &lower : nullptr, bound, {});
-      add(LayerKind::refinement, bound, base, "refinement", std::move(refined.bytes));
-      base = static_cast<int>(made_.layers.size());
-      lower = std::move(refined.decoded);
-    }
-    if (bounds.empty()) return;
-    made_.distances = joint_distances(positions, joint_positions(*take_.skeleton, lower));
+  void add_refinement(double bound_mm) {
+    Refinement refined = refine(take_, nullptr, bound_mm, {});
+    add(LayerKind::refinement, bound_mm, 0, "refinement", std::move(refined.bytes));
+    made_.distances = joint_distances(joint_positions(*take_.skeleton, take_.channels),
+                                      joint_positions(*take_.skeleton, refined.decoded));
     made_.errors = summarise_distances(made_.distances);
   }
 
@@ -72,7 +60,7 @@ TakeLayers make_layers(const Fidelity& fidelity, const CodedSpace& space, const 
                        const std::string& text, FittedTake fitted) {
   LayerMaker maker(space, take);
   maker.add_coefficients(std::move(fitted), coarse_mean_mm(fidelity));
-  maker.add_refinements(bounds_of(fidelity));
+  if (const auto bound = bound_of(fidelity)) maker.add_refinement(*bound);
   if (fidelity.tier == FidelityTier::exact) maker.add_text(text);
   return maker.finish();
 }
