@@ -160,6 +160,8 @@ void ArchiveStore::begin() {
 void ArchiveStore::commit() {
   impl_->require_transaction();
   try {
+    impl_->flush();
+    impl_->remove_vacated();
     impl_->database->run("COMMIT");
   } catch (...) {
     impl_->broken = true;
@@ -171,6 +173,8 @@ void ArchiveStore::commit() {
 
 void ArchiveStore::roll_back() {
   impl_->in_transaction = false;
+  impl_->open.reset();
+  impl_->vacated.clear();
   // A failed write may have rolled back already.
   if (sqlite3_get_autocommit(impl_->database->handle()) == 0) impl_->database->run("ROLLBACK");
 }

@@ -141,6 +141,8 @@ class ArchiveStore {
   std::vector<TakeInfo> takes(const TakeFilter& filter) const;  ///< by name
   std::vector<ClipRecord> clips(
       std::span<const std::int64_t> takes) const;  ///< by take name, first frame
+  /// Every take without the data of its layers, in the order of their rows.
+  void for_each_take(const std::function<void(const TakeRecord&)>& visit) const;
   std::vector<ClipRecord> clips_with_prefix(const std::string& hexadecimal) const;
   std::vector<SkeletonInfo> skeletons() const;
   std::vector<std::string> subjects() const;
@@ -161,6 +163,13 @@ class ArchiveStore {
   struct Impl;
 
  private:
+  /// Takes whose name is `tail` or, unless `whole`, ends in it after a slash.
+  std::vector<TakeRecord> takes_named(const std::string& tail, bool whole) const;
+  void count_clips(ArchiveStats& stats) const;
+  void count_bytes(ArchiveStats& stats, std::uint64_t motion) const;
+  void check_takes(std::vector<Damage>& damaged) const;
+  bool has_clip_of_kind(std::int64_t take, ClipKind kind) const;
+
   explicit ArchiveStore(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

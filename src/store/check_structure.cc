@@ -34,6 +34,11 @@ void note_damage(const std::string& id, std::vector<Damage>& damaged, Check&& ch
   }
 }
 
+std::int64_t number(const Database& database, const std::string& sql) {
+  Statement row(database, sql);
+  return row.step() ? row.integer() : 0;
+}
+
 }  // namespace
 
 std::vector<Damage> ArchiveStore::check_structure() const {
@@ -52,32 +57,53 @@ std::vector<Damage> ArchiveStore::check_structure() const {
     while (keys.step())
       damaged.push_back({"tables", "a row of '" + keys.text() + "' refers to one that is gone"});
   });
-  note_damage("blobs", damaged, [&] {
-    Statement row(database,
-                  "SELECT id FROM blobs WHERE id/8 NOT IN (SELECT id FROM takes) LIMIT 20");
-    while (row.step()) {
-      damaged.push_back({"blobs", "row " + std::to_string(row.integer()) + " belongs to no take"});
-    }
-  });
   note_damage("skeletons", damaged, [&] { skeletons(); });
+  check_takes(damaged);
+  return damaged;
+}
+
+void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
+  const Database& database = *impl_->database;
+  Digest sum{};
+  bool whole = true;
+  std::int64_t keys = 0, parts = 0;
+  const auto check_take = [&](const TakeBlock& block, const StoredTake& take) {
+    const std::int64_t id = block.id_of(take);
+    add_to_sum(sum, content_of(id));
+    const std::int64_t ids_of_one[] = {id};
+    const std::vector<ClipRecord> own = clips(ids_of_one);
+    if (!take.clip) parts += static_cast<std::int64_t>(own.size());
+    for (const std::int64_t key : keys_of(take.record.info, own)) {
+      ++keys;
+      const std::vector<std::int64_t> found = impl_->takes_with_keys(key, key);
+      if (std::ranges::find(found, id) == found.end())
+        throw Error(ErrorCode::damaged, "it is not in the index");
+    }
+  };
+  Statement ids(database, "SELECT id, length(data) FROM blocks ORDER BY id");
   note_damage("takes", damaged, [&] {
-    Digest sum{};
-    Statement ids(database, "SELECT id, folder, leaf FROM takes ORDER BY id");
-    bool whole = true;
     while (ids.step()) {
       const std::int64_t id = ids.integer();
-      const std::string folder = ids.text();
-      const std::string name = join_name(folder, ids.text());
+      const auto size = static_cast<std::size_t>(ids.integer());
       const std::size_t before = damaged.size();
-      note_damage(name, damaged, [&] { add_to_sum(sum, content_of(id)); });
+      note_damage("block " + std::to_string(id), damaged, [&] {
+        const auto block = impl_->block(id);
+        if (size != block->data_size())
+          throw Error(ErrorCode::damaged, "its motion is not as long as it should be");
+        for (const StoredTake& take : block->takes)
+          note_damage(take.record.info.name, damaged, [&] { check_take(*block, take); });
+      });
       whole = whole && damaged.size() == before;
     }
+    if (!whole) return;
+    if (keys != number(database, "SELECT count(*) FROM keys"))
+      damaged.push_back({"keys", "some lead to no take"});
+    if (parts != number(database, "SELECT count(*) FROM clips"))
+      damaged.push_back({"clips", "some are of no take"});
     Statement row(database, "SELECT value FROM meta WHERE key='content'");
-    if (whole && (!row.step() || !std::ranges::equal(row.bytes(), sum))) {
+    if (!row.step() || !std::ranges::equal(row.bytes(), sum))
       damaged.push_back({"takes", "they are not those that were stored"});
-    }
   });
-  return damaged;
 }
 
 }  // namespace reprise

@@ -137,4 +137,30 @@ Bytes Statement::bytes() {
   return data ? Bytes(data, data + size) : Bytes();
 }
 
+Bytes read_part(const Database& database, const BlobPlace& place, std::size_t offset,
+                std::size_t size) {
+  struct Close {
+    void operator()(sqlite3_blob* blob) const { sqlite3_blob_close(blob); }
+  };
+  sqlite3_blob* raw = nullptr;
+  const int result =
+      sqlite3_blob_open(database.handle(), "main", place.table, place.column, place.row, 0, &raw);
+  const std::unique_ptr<sqlite3_blob, Close> blob(raw);
+  if (result != SQLITE_OK && result != SQLITE_ERROR) database.fail(result);
+  const auto available =
+      result == SQLITE_OK ? static_cast<std::size_t>(sqlite3_blob_bytes(raw)) : 0;
+  // SQLITE_ERROR says that there is no such row, or no blob in it.
+  if (result == SQLITE_ERROR || offset > available || size > available - offset) {
+    throw Error(ErrorCode::damaged,
+                "the archive is damaged: a part of a row of '" + std::string(place.table) +
+                    "' is not there",
+                {database.path().string()});
+  }
+  Bytes bytes(size);
+  const int read =
+      sqlite3_blob_read(raw, bytes.data(), static_cast<int>(size), static_cast<int>(offset));
+  if (read != SQLITE_OK) database.fail(read);
+  return bytes;
+}
+
 }  // namespace reprise

@@ -71,4 +71,15 @@ class Statement {
   int column_ = 0;
 };
 
+/// Where a blob is: a column of the row with an id.
+struct BlobPlace {
+  const char* table;
+  const char* column;
+  std::int64_t row;
+};
+/// A part of a blob, read without the rest. Throws Error (damaged) where the blob is shorter or the
+/// row is not there.
+Bytes read_part(const Database& database, const BlobPlace& place, std::size_t offset,
+                std::size_t size);
+
 }  // namespace reprise

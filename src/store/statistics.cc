@@ -16,20 +16,18 @@ std::int64_t number(const Database& database, const std::string& sql) {
 }  // namespace
 
 bool ArchiveStore::empty() const {
-  return number(*impl_->database, "SELECT count(*) FROM sqlite_schema") == 0;
+  return !impl_->prepare("SELECT 1 FROM sqlite_schema LIMIT 1").step();
 }
 
 std::vector<SkeletonInfo> ArchiveStore::skeletons() const {
+  std::map<std::int64_t, std::size_t> takes;
+  for_each_take([&](const TakeRecord& take) { ++takes[take.info.skeleton]; });
   std::vector<SkeletonInfo> result;
   Statement ids = impl_->prepare("SELECT id FROM skeletons ORDER BY id");
   while (ids.step()) {
     const SkeletonRecord record = skeleton(ids.integer());
     SkeletonInfo info{record.id, record.format, record.joints, record.channels, 0, 0, record.root};
-    Statement takes = impl_->prepare(
-        "SELECT count(*) FROM takes JOIN proportions ON proportions.id=takes.proportions WHERE "
-        "skeleton=?");
-    takes.bind(record.id);
-    if (takes.step()) info.takes = static_cast<std::size_t>(takes.integer());
+    info.takes = takes[record.id];
     Statement actors = impl_->prepare("SELECT count(*) FROM proportions WHERE skeleton=?");
     actors.bind(record.id);
     if (actors.step()) info.proportions = static_cast<std::size_t>(actors.integer());
@@ -39,27 +37,21 @@ std::vector<SkeletonInfo> ArchiveStore::skeletons() const {
 }
 
 std::vector<std::string> ArchiveStore::subjects() const {
-  std::vector<std::string> names;
-  Statement row = impl_->prepare("SELECT name FROM subjects ORDER BY name");
-  while (row.step()) names.push_back(row.text());
-  return names;
+  std::set<std::string> names;
+  for_each_take([&](const TakeRecord& take) { names.insert(take.info.subject); });
+  names.erase("");
+  return {names.begin(), names.end()};
 }
 
 ArchiveStats ArchiveStore::stats(
     const std::function<void(const Bytes&, std::uint64_t)>& sketch) const {
-  const Database& database = *impl_->database;
   ArchiveStats stats;
   double sum = 0, squares = 0, distances = 0;
   std::map<std::int64_t, std::size_t> joints;
-  std::set<std::int64_t> skeletons_seen;
   std::uint64_t motion = 0;
-  Statement ids(database, "SELECT id FROM takes");
-  while (ids.step()) {
-    const TakeRecord record = take(ids.integer());
+  for_each_take([&](const TakeRecord& record) {
     const TakeInfo& info = record.info;
-    if (skeletons_seen.insert(info.skeleton).second) {
-      joints[info.skeleton] = skeleton(info.skeleton).joints;
-    }
+    if (!joints.contains(info.skeleton)) joints[info.skeleton] = skeleton(info.skeleton).joints;
     const auto weight =
         static_cast<std::uint64_t>(info.frames) * static_cast<std::uint64_t>(joints[info.skeleton]);
     ++stats.takes;
@@ -75,23 +67,43 @@ ArchiveStats ArchiveStore::stats(
     distances += static_cast<double>(weight);
     stats.error_mm.max = std::max(stats.error_mm.max, info.error_mm.max);
     sketch(record.error_quantiles, weight);
-  }
+  });
   if (distances > 0) {
     stats.error_mm.mean = sum / distances;
     stats.error_mm.rms = std::sqrt(squares / distances);
   }
   stats.subjects = subjects().size();
-  stats.skeletons = skeletons_seen.size();
-  for (const ClipKind kind : {ClipKind::primary, ClipKind::repeated, ClipKind::unique}) {
-    const auto count =
-        static_cast<std::size_t>(number(database, "SELECT count(*) FROM clips WHERE kind=" +
-                                                      std::to_string(static_cast<int>(kind))));
+  stats.skeletons = joints.size();
+  count_clips(stats);
+  count_bytes(stats, motion);
+  return stats;
+}
+
+void ArchiveStore::count_clips(ArchiveStats& stats) const {
+  std::set<std::int64_t> groups;
+  const auto count = [&](ClipKind kind, std::int64_t group, std::size_t clips) {
     (kind == ClipKind::primary    ? stats.primary_clips
      : kind == ClipKind::repeated ? stats.repeated_clips
-                                  : stats.unique_clips) = count;
+                                  : stats.unique_clips) += clips;
+    if (group != 0) groups.insert(group);
+  };
+  impl_->for_each_block([&](const TakeBlock& block) {
+    for (const StoredTake& take : block.takes) {
+      if (take.clip) count(ClipKind::unique, take.clip->group, 1);
+    }
+  });
+  Statement row = impl_->prepare("SELECT kind, family, count(*) FROM clips GROUP BY kind, family");
+  while (row.step()) {
+    const auto kind = static_cast<ClipKind>(row.integer());
+    const std::int64_t group = row.integer();
+    count(kind, group, static_cast<std::size_t>(row.integer()));
   }
-  stats.groups = static_cast<std::size_t>(
-      number(database, "SELECT count(DISTINCT family) FROM clips WHERE family<>0"));
+  stats.groups = groups.size();
+}
+
+/// What the bytes of the file are spent on; `motion` is what layers take up.
+void ArchiveStore::count_bytes(ArchiveStats& stats, std::uint64_t motion) const {
+  const Database& database = *impl_->database;
   std::uint64_t coded = 0;
   for (const auto& [name, size] : stats.bytes) coded += size;
   stats.bytes["axes"] = static_cast<std::uint64_t>(
@@ -102,14 +114,16 @@ ArchiveStats ArchiveStore::stats(
   stats.payload_bytes = motion + stats.bytes["axes"] + stats.bytes["skeletons"];
   stats.archive_bytes = std::filesystem::file_size(database.path());
   stats.bytes["tables"] = stats.archive_bytes - std::min(stats.archive_bytes, stats.payload_bytes);
-  return stats;
 }
 
 Digest ArchiveStore::content_digest() const {
   Statement row = impl_->prepare("SELECT value FROM meta WHERE key='content'");
   Hasher hasher;
   if (row.step()) hasher.add_bytes(row.bytes());
-  hasher.add_number(number(*impl_->database, "SELECT count(*) FROM takes"));
+  std::int64_t takes = 0;
+  impl_->for_each_block(
+      [&](const TakeBlock& block) { takes += static_cast<std::int64_t>(block.takes.size()); });
+  hasher.add_number(takes);
   return hasher.finish();
 }
 

@@ -46,10 +46,6 @@ std::string join_name(const std::string& folder, const std::string& leaf) {
   return folder.empty() ? leaf : folder + "/" + leaf;
 }
 
-std::int64_t blob_row(std::int64_t take, std::size_t layer) {
-  return take * static_cast<std::int64_t>(most_layers) + static_cast<std::int64_t>(layer);
-}
-
 std::int64_t stored_address(std::uint64_t address) {
   return static_cast<std::int64_t>(address ^ (std::uint64_t{1} << 63));
 }
@@ -89,7 +85,7 @@ Digest space_digest(const Digest& structure, const Digest& base, const Bytes& da
 
 namespace {
 
-/// What the row and the content of a take have in common.
+/// What is known of a take but for its rows.
 void add_take(Hasher& hasher, const TakeRecord& record) {
   const TakeInfo& info = record.info;
   hasher.add_text(info.name);
@@ -105,20 +101,14 @@ void add_take(Hasher& hasher, const TakeRecord& record) {
   hasher.add_number(micrometres(info.error_mm.p99));
   hasher.add_number(micrometres(info.error_mm.max));
   hasher.add_bytes(record.error_quantiles);
-  hasher.add_bytes(pack_spent(record.spent));
+  for (const auto& [part, bytes] : record.spent) {
+    hasher.add_number(static_cast<std::int64_t>(part_number(part)));
+    hasher.add_number(static_cast<std::int64_t>(bytes));
+  }
   hasher.add_text(info.source_digest);
 }
 
 }  // namespace
-
-ShortDigest row_digest(const TakeRecord& record, const Bytes& layers) {
-  Hasher hasher;
-  add_take(hasher, record);
-  hasher.add_number(record.proportions);
-  hasher.add_number(record.space);
-  hasher.add_bytes(layers);
-  return shortened(hasher.finish());
-}
 
 Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
                     std::span<const Digest> layers, std::span<const ClipRecord> clips) {

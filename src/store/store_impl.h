@@ -1,15 +1,18 @@
 // What the parts of ArchiveStore share.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "store/archive_store.h"
 #include "store/database.h"
 #include "store/digest.h"
-#include "store/packed_columns.h"
+#include "store/take_block.h"
 
 namespace reprise {
 
@@ -36,16 +39,60 @@ struct ArchiveStore::Impl {
   bool in_transaction = false;
   bool broken = false;  ///< a commit failed: nothing more is written
 
+  /// The block that takes are being added to, not written yet.
+  struct OpenBlock {
+    std::shared_ptr<TakeBlock> block;
+    Bytes data;
+  };
+  std::optional<OpenBlock> open;
+  /// Proportions of takes that were removed in this transaction.
+  std::set<std::int64_t> vacated;
+  struct KnownBlock {
+    Bytes digest;
+    std::shared_ptr<const TakeBlock> block;
+  };
+  /// Blocks as they were read last; good for as long as the row has the same digest.
+  mutable std::map<std::int64_t, KnownBlock> known;
+
   Statement prepare(std::string_view sql) const { return Statement(*database, sql); }
   void require_transaction() const;
+
+  // Blocks (block_rows.cc). Errors: damaged.
+  std::shared_ptr<const TakeBlock> block(std::int64_t id) const;  ///< null: there is none
+  void for_each_block(const std::function<void(const TakeBlock&)>& visit) const;
+  /// The coded motion of all takes of a block that is not the open one.
+  Bytes block_data(std::int64_t id) const;
+  /// A layer's bytes as they are stored.
+  Bytes stored_layer(const TakeBlock& block, const LayerPlace& place) const;
+  /// The block that the next take goes to, with room for it.
+  OpenBlock& open_block();
+  void write_block(const TakeBlock& block, const Bytes& data);
+  void flush();  ///< writes the open block
+  /// Takes out the proportions, spaces and skeletons that only removed takes needed.
+  void remove_vacated();
+  void remove_proportions(std::int64_t id, std::int64_t skeleton,
+                          const std::set<std::int64_t>& used);
+
+  // Keys (block_rows.cc).
+  void add_keys(std::int64_t take, const std::set<std::int64_t>& keys);
+  void remove_keys(std::int64_t take, const std::set<std::int64_t>& keys);
+  /// Takes that have one of the keys from `first` to `last`: those that are looked for, and maybe
+  /// others.
+  std::vector<std::int64_t> takes_with_keys(std::int64_t first, std::int64_t last) const;
 };
+
+/// Keys are the first 24 bits of digests and addresses, moved so that SQLite stores them in three
+/// bytes and their order stays.
+std::int64_t key_of_address(std::uint64_t address);
+std::int64_t key_of_name(const std::string& name);
+/// Of a take: its leaf, its whole name, and all its clips.
+std::set<std::int64_t> keys_of(const TakeInfo& take, std::span<const ClipRecord> clips);
+
+ClipRecord clip_of(std::int64_t take, const StoredTake& stored);  ///< of a take that is one clip
 
 /// "a/b/c" as folder "a/b" and leaf "c".
 std::pair<std::string, std::string> split_name(const std::string& name);
 std::string join_name(const std::string& folder, const std::string& leaf);
-
-/// The row of a layer in the table of blobs.
-std::int64_t blob_row(std::int64_t take, std::size_t layer);
 
 /// Clip addresses are unsigned, SQLite's integers signed: moved so that their order stays.
 std::int64_t stored_address(std::uint64_t address);
@@ -55,7 +102,6 @@ std::uint64_t address_of(std::int64_t stored);
 ShortDigest row_digest(const SkeletonRecord& record);
 Digest proportions_identity(const ProportionsRecord& record);
 Digest space_digest(const Digest& structure, const Digest& base, const Bytes& data);
-ShortDigest row_digest(const TakeRecord& record, const Bytes& layers);
 /// What a take is, wherever it stands in an archive; `layers` are the digests of its layers' data.
 Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
                     std::span<const Digest> layers, std::span<const ClipRecord> clips);

@@ -1,4 +1,5 @@
 // Rows into the archive, and out of it.
+#include <algorithm>
 #include <cassert>
 
 #include "store/compression.h"
@@ -21,13 +22,24 @@ void store_content_sum(const Database& database, const Digest& sum) {
   Statement(database, "UPDATE meta SET value=? WHERE key='content'").bind(sum).run();
 }
 
-std::int64_t subject_row(const Database& database, const std::string& name) {
-  if (name.empty()) return 0;
-  Statement known(database, "SELECT id FROM subjects WHERE name=?");
-  known.bind(name);
-  if (known.step()) return known.integer();
-  Statement(database, "INSERT INTO subjects(name) VALUES(?)").bind(name).run();
-  return database.last_row();
+/// A layer as it is stored: most are coded as densely as can be already.
+Bytes stored_form(const LayerRecord& layer, LayerPlace& place) {
+  Bytes frame = compress(layer.data, false);
+  place.digest = shortened(digest_of(layer.data));
+  place.compressed = frame.size() < layer.data.size();
+  Bytes stored = place.compressed ? std::move(frame) : layer.data;
+  place.size = stored.size();
+  return stored;
+}
+
+/// The clip, if the take is this one clip and no more is to be said of it.
+std::optional<WholeTakeClip> whole_take(const TakeRecord& take, std::span<const ClipRecord> clips) {
+  if (clips.size() != 1) return std::nullopt;
+  const ClipRecord& clip = clips[0];
+  const bool whole = clip.kind == ClipKind::unique && clip.first_frame == 0 &&
+                     clip.frames == take.info.frames && clip.primary == 0 && clip.group >= 0;
+  if (!whole) return std::nullopt;
+  return WholeTakeClip{clip.id, clip.group, clip.bytes};
 }
 
 void insert_clip(const Database& database, std::int64_t take, const ClipRecord& clip) {
@@ -108,82 +120,94 @@ std::int64_t ArchiveStore::add_space(const SpaceRecord& record) {
 
 std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const ClipRecord> clips) {
   impl_->require_transaction();
-  const Database& database = *impl_->database;
-  const TakeInfo& info = take.info;
-  const auto [folder, leaf] = split_name(info.name);
   assert(!take.layers.empty() && take.layers.size() <= most_layers);
-  const Bytes layers = pack_layers(layer_table(take.layers));
-  Statement insert = impl_->prepare(
-      "INSERT INTO takes(leaf, folder, subject, proportions, space, frames, tier, limit_mm, "
-      "text_bytes, "
-      "mean_um, rms_um, p99_um, max_um, sketch, spent, source, layers, digest) "
-      "VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-  insert.bind(leaf).bind(folder).bind(subject_row(database, info.subject));
-  insert.bind(take.proportions).bind(take.space).bind(std::int64_t{info.frames});
-  insert.bind(std::int64_t{static_cast<int>(info.fidelity.tier)}).bind(info.fidelity.limit_mm);
-  insert.bind(static_cast<std::int64_t>(info.text_bytes));
-  insert.bind(micrometres(info.error_mm.mean)).bind(micrometres(info.error_mm.rms));
-  insert.bind(micrometres(info.error_mm.p99)).bind(micrometres(info.error_mm.max));
-  insert.bind(take.error_quantiles).bind(pack_spent(take.spent));
-  insert.bind(from_hexadecimal(info.source_digest)).bind(layers);
-  insert.bind(row_digest(take, layers)).run();
-  const std::int64_t id = database.last_row();
-  if (!info.description.empty() || !info.tags.empty()) {
-    impl_->prepare("INSERT INTO texts(take, description, tags) VALUES(?,?,?)")
-        .bind(id)
-        .bind(info.description)
-        .bind(info.tags)
-        .run();
+  assert(take.error_quantiles.size() <= TakeBlockLimits::quantiles);
+  assert(take.spent.size() <= TakeBlockLimits::parts);
+  Impl::OpenBlock& open = impl_->open_block();
+  StoredTake stored;
+  stored.slot = open.block->takes.empty() ? 0 : open.block->takes.back().slot + 1;
+  stored.record = take;
+  for (LayerRecord& layer : stored.record.layers) {
+    LayerPlace place;
+    place.offset = open.data.size();
+    const Bytes bytes = stored_form(layer, place);
+    open.data.insert(open.data.end(), bytes.begin(), bytes.end());
+    layer.data.clear();
+    stored.places.push_back(place);
+    stored.record.info.payload_bytes += place.size;
   }
-  for (const ClipRecord& clip : clips) insert_clip(database, id, clip);
-  for (std::size_t i = 0; i < take.layers.size(); ++i) {
-    impl_->prepare("INSERT INTO blobs(id, data) VALUES(?,?)")
-        .bind(blob_row(id, i))
-        .bind(compress(take.layers[i].data, false))
-        .run();
+  stored.clip = whole_take(take, clips);
+  const std::int64_t id = open.block->id_of(stored);
+  stored.record.info.id = id;
+  impl_->add_keys(id, keys_of(take.info, clips));
+  if (!stored.clip) {
+    for (const ClipRecord& clip : clips) insert_clip(*impl_->database, id, clip);
   }
-  Digest sum = content_sum(database);
+  open.block->takes.push_back(std::move(stored));
+  Digest sum = content_sum(*impl_->database);
   add_to_sum(sum, content_of(id));
-  store_content_sum(database, sum);
+  store_content_sum(*impl_->database, sum);
   return id;
 }
 
 void ArchiveStore::remove_take(std::int64_t id) {
   impl_->require_transaction();
-  const Database& database = *impl_->database;
-  const TakeRecord record = take(id);
-  Digest sum = content_sum(database);
+  impl_->flush();
+  const auto found = impl_->block(block_of(id));
+  const StoredTake* stored = found ? found->find(id) : nullptr;
+  if (stored == nullptr) {
+    throw Error(ErrorCode::damaged,
+                "the archive is damaged: there is no take " + std::to_string(id));
+  }
+  Digest sum = content_sum(*impl_->database);
   subtract_from_sum(sum, content_of(id));
-  store_content_sum(database, sum);
-  for (const char* table : {"clips", "texts"}) {
-    Statement(database, std::string("DELETE FROM ") + table + " WHERE take=?").bind(id).run();
+  store_content_sum(*impl_->database, sum);
+  const std::int64_t ids[] = {id};
+  impl_->remove_keys(id, keys_of(stored->record.info, clips(ids)));
+  impl_->prepare("DELETE FROM clips WHERE take=?").bind(id).run();
+  impl_->vacated.insert(stored->record.proportions);
+  Bytes data = impl_->block_data(found->id);
+  for (auto place = stored->places.rbegin(); place != stored->places.rend(); ++place) {
+    const auto begin = data.begin() + static_cast<std::ptrdiff_t>(place->offset);
+    data.erase(begin, begin + static_cast<std::ptrdiff_t>(place->size));
   }
-  Statement(database, "DELETE FROM blobs WHERE id BETWEEN ? AND ?")
-      .bind(blob_row(id, 0))
-      .bind(blob_row(id, most_layers - 1))
-      .run();
-  impl_->prepare("DELETE FROM takes WHERE id=?").bind(id).run();
-  // What nothing refers to any more goes too; a skeleton keeps its axes and the proportions that
-  // they are for.
-  impl_->prepare("DELETE FROM subjects WHERE id NOT IN (SELECT subject FROM takes)").run();
-  Statement left = impl_->prepare(
-      "SELECT count(*) FROM takes JOIN proportions ON proportions.id=takes.proportions "
-      "WHERE proportions.skeleton=?");
-  left.bind(record.info.skeleton);
-  left.step();
-  if (left.integer() == 0) {
-    impl_->prepare("DELETE FROM spaces WHERE skeleton=?").bind(record.info.skeleton).run();
-    impl_->prepare("DELETE FROM proportions WHERE skeleton=?").bind(record.info.skeleton).run();
-    impl_->prepare("DELETE FROM skeletons WHERE id=?").bind(record.info.skeleton).run();
-    return;
+  TakeBlock left = *found;
+  std::erase_if(left.takes, [&](const StoredTake& take) { return left.id_of(take) == id; });
+  impl_->write_block(left, data);
+}
+
+void ArchiveStore::Impl::remove_vacated() {
+  if (vacated.empty()) return;
+  // One look at all takes for all that were removed.
+  std::set<std::int64_t> used;
+  for_each_block([&](const TakeBlock& block) {
+    for (const StoredTake& take : block.takes) used.insert(take.record.proportions);
+  });
+  for (const std::int64_t id : vacated) {
+    if (used.contains(id)) continue;
+    Statement row = prepare("SELECT skeleton FROM proportions WHERE id=?");
+    row.bind(id);
+    if (row.step()) remove_proportions(id, row.integer(), used);
   }
-  impl_
-      ->prepare(
-          "DELETE FROM proportions WHERE id=? AND id NOT IN (SELECT proportions FROM takes) AND "
-          "id<>(SELECT min(id) FROM proportions WHERE skeleton=?)")
-      .bind(record.proportions)
-      .bind(record.info.skeleton)
-      .run();
+  vacated.clear();
+}
+
+void ArchiveStore::Impl::remove_proportions(std::int64_t id, std::int64_t skeleton,
+                                            const std::set<std::int64_t>& used) {
+  Statement row = prepare("SELECT id FROM proportions WHERE skeleton=? ORDER BY id");
+  row.bind(skeleton);
+  std::vector<std::int64_t> all;
+  while (row.step()) all.push_back(row.integer());
+  const bool skeleton_used =
+      std::ranges::any_of(all, [&](std::int64_t other) { return used.contains(other); });
+  if (!skeleton_used) {
+    prepare("DELETE FROM spaces WHERE skeleton=?").bind(skeleton).run();
+    prepare("DELETE FROM proportions WHERE skeleton=?").bind(skeleton).run();
+    prepare("DELETE FROM skeletons WHERE id=?").bind(skeleton).run();
+  } else if (id != all.front()) {
+    // A skeleton keeps its axes and the proportions that they are for.
+    prepare("DELETE FROM proportions WHERE id=?").bind(id).run();
+  }
 }
 
 }  // namespace reprise

@@ -33,8 +33,18 @@ TEST_F(ArchiveStoreTest, RecordsComeBack) {
       EXPECT_EQ(store.layer(got->info.id, layer), put.layers[layer].data);
     }
     const std::int64_t ids[] = {got->info.id};
-    ASSERT_EQ(store.clips(ids).size(), 1u);
-    EXPECT_EQ(store.clips(ids)[0].id, sample_clip(i).id);
+    const std::vector<ClipRecord> clips = store.clips(ids), put_clips = sample_clips(i);
+    ASSERT_EQ(clips.size(), put_clips.size());
+    for (std::size_t c = 0; c < clips.size(); ++c) {
+      EXPECT_EQ(clips[c].id, put_clips[c].id);
+      EXPECT_EQ(clips[c].take, got->info.id);
+      EXPECT_EQ(clips[c].kind, put_clips[c].kind);
+      EXPECT_EQ(clips[c].group, put_clips[c].group);
+      EXPECT_EQ(clips[c].first_frame, put_clips[c].first_frame);
+      EXPECT_EQ(clips[c].frames, put_clips[c].frames);
+      EXPECT_EQ(clips[c].primary, put_clips[c].primary);
+      EXPECT_EQ(clips[c].bytes, put_clips[c].bytes);
+    }
   }
   EXPECT_EQ(store.space(ground.space).data, random_bytes(300, 9));
   EXPECT_TRUE(store.check_structure().empty());

@@ -89,9 +89,24 @@ inline ClipRecord sample_clip(int number) {
   return clip;
 }
 
+/// Two of three takes are one clip; the others have a part that repeats one of another.
+inline std::vector<ClipRecord> sample_clips(int number) {
+  std::vector<ClipRecord> clips = {sample_clip(number)};
+  if (number % 3 == 1) {
+    clips[0].frames = 40;
+    ClipRecord part = sample_clip(number + 1000);
+    part.kind = number % 2 ? ClipKind::repeated : ClipKind::primary;
+    part.group = 1 + number % 4;
+    part.primary = sample_clip(1).id;
+    part.first_frame = 40;
+    part.frames = 60 + number;
+    clips.push_back(part);
+  }
+  return clips;
+}
+
 inline void add_sample(ArchiveStore& store, const Ground& ground, int number) {
-  const ClipRecord clips[] = {sample_clip(number)};
-  store.add_take(sample_take(ground, number), clips);
+  store.add_take(sample_take(ground, number), sample_clips(number));
 }
 
 inline Ground make_sample(const fs::path& path, int takes) {
@@ -119,7 +134,10 @@ inline std::string everything(const ArchiveStore& store) {
     }
     const std::int64_t ids[] = {info.id};
     for (const ClipRecord& clip : store.clips(ids)) {
-      text += std::to_string(clip.id) + ":" + std::to_string(clip.frames) + "|";
+      for (const auto fact : {clip.take, std::int64_t{clip.first_frame}, std::int64_t{clip.frames},
+                              std::int64_t{static_cast<int>(clip.kind)}, clip.group})
+        text += std::to_string(fact) + ":";
+      text += std::to_string(clip.id) + ":" + std::to_string(clip.primary) + "|";
       text += std::to_string(
           store.clips_with_prefix(hexadecimal(Bytes{static_cast<std::uint8_t>(clip.id >> 56)}))
               .size());

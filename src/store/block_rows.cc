@@ -1,0 +1,162 @@
+// Blocks of takes as rows, and the keys that lead to them.
+#include <algorithm>
+#include <cassert>
+
+#include "store/compression.h"
+#include "store/store_impl.h"
+
+namespace reprise {
+namespace {
+
+/// Blocks that are kept decoded.
+constexpr std::size_t most_known_blocks = 16;
+/// Ids beyond this would overflow as takes' ids.
+constexpr std::int64_t most_block_id = std::int64_t{1} << 56;
+constexpr int key_bits = 24;
+/// No block has more coded motion: one take of the largest kind on top of a full block.
+constexpr std::size_t most_layer = std::size_t{1} << 30;
+
+[[noreturn]] void throw_damaged(std::int64_t id) {
+  throw Error(ErrorCode::damaged, "the archive is damaged: block " + std::to_string(id) +
+                                      " of takes is not as it was written");
+}
+
+bool has_room(const TakeBlock& block) {
+  return block.data_size() < TakeBlockLimits::open_bytes &&
+         (block.takes.empty() || block.takes.back().slot + 1 < TakeBlockLimits::takes);
+}
+
+}  // namespace
+
+std::shared_ptr<const TakeBlock> ArchiveStore::Impl::block(std::int64_t id) const {
+  if (open && open->block->id == id) return open->block;
+  Statement row = prepare("SELECT digest, takes FROM blocks WHERE id=?");
+  row.bind(id);
+  if (!row.step()) return nullptr;
+  if (id <= 0 || id > most_block_id) throw_damaged(id);
+  Bytes digest = row.bytes();
+  const auto before = known.find(id);
+  if (before != known.end() && before->second.digest == digest) return before->second.block;
+  const Bytes takes = row.bytes();
+  if (!std::ranges::equal(digest, block_digest(id, takes))) throw_damaged(id);
+  auto block = std::make_shared<const TakeBlock>(unpack_block(id, takes));
+  if (known.size() >= most_known_blocks) known.clear();
+  known[id] = {std::move(digest), block};
+  return block;
+}
+
+void ArchiveStore::Impl::for_each_block(const std::function<void(const TakeBlock&)>& visit) const {
+  bool open_seen = false;
+  Statement ids = prepare("SELECT id FROM blocks ORDER BY id");
+  while (ids.step()) {
+    const std::int64_t id = ids.integer();
+    const auto found = block(id);
+    if (!found) throw_damaged(id);
+    open_seen = open_seen || (open && open->block->id == id);
+    visit(*found);
+  }
+  if (open && !open_seen) visit(*open->block);
+}
+
+Bytes ArchiveStore::Impl::block_data(std::int64_t id) const {
+  Statement row = prepare("SELECT data FROM blocks WHERE id=?");
+  row.bind(id);
+  if (!row.step()) throw_damaged(id);
+  return row.bytes();
+}
+
+Bytes ArchiveStore::Impl::stored_layer(const TakeBlock& block, const LayerPlace& place) const {
+  if (open && open->block->id == block.id) {
+    const auto begin = open->data.begin() + static_cast<std::ptrdiff_t>(place.offset);
+    return {begin, begin + static_cast<std::ptrdiff_t>(place.size)};
+  }
+  return read_part(*database, {"blocks", "data", block.id}, place.offset, place.size);
+}
+
+ArchiveStore::Impl::OpenBlock& ArchiveStore::Impl::open_block() {
+  if (open && has_room(*open->block)) return *open;
+  flush();
+  Statement last = prepare("SELECT coalesce(max(id), 0) FROM blocks");
+  last.step();
+  const std::int64_t id = last.integer();
+  if (const auto newest = block(id); newest && has_room(*newest)) {
+    open = OpenBlock{std::make_shared<TakeBlock>(*newest), block_data(id)};
+    if (open->data.size() != newest->data_size()) throw_damaged(id);
+  } else {
+    open = OpenBlock{std::make_shared<TakeBlock>(TakeBlock{id + 1, {}}), {}};
+  }
+  return *open;
+}
+
+void ArchiveStore::Impl::write_block(const TakeBlock& block, const Bytes& data) {
+  if (block.takes.empty()) {
+    prepare("DELETE FROM blocks WHERE id=?").bind(block.id).run();
+    return;
+  }
+  const Bytes takes = pack_block(block);
+  prepare("INSERT OR REPLACE INTO blocks(id, takes, digest, data) VALUES(?,?,?,?)")
+      .bind(block.id)
+      .bind(takes)
+      .bind(block_digest(block.id, takes))
+      .bind(data)
+      .run();
+}
+
+void ArchiveStore::Impl::flush() {
+  if (!open) return;
+  write_block(*open->block, open->data);
+  open.reset();
+}
+
+void ArchiveStore::Impl::add_keys(std::int64_t take, const std::set<std::int64_t>& keys) {
+  for (const std::int64_t key : keys) {
+    prepare("INSERT INTO keys(key, take) VALUES(?,?)").bind(key).bind(take).run();
+  }
+}
+
+void ArchiveStore::Impl::remove_keys(std::int64_t take, const std::set<std::int64_t>& keys) {
+  for (const std::int64_t key : keys) {
+    prepare("DELETE FROM keys WHERE key=? AND take=?").bind(key).bind(take).run();
+  }
+}
+
+std::vector<std::int64_t> ArchiveStore::Impl::takes_with_keys(std::int64_t first,
+                                                              std::int64_t last) const {
+  Statement row = prepare("SELECT DISTINCT take FROM keys WHERE key BETWEEN ? AND ?");
+  row.bind(first).bind(last);
+  std::vector<std::int64_t> takes;
+  while (row.step()) takes.push_back(row.integer());
+  std::ranges::sort(takes);
+  return takes;
+}
+
+std::int64_t key_of_address(std::uint64_t address) {
+  return static_cast<std::int64_t>(address >> (64 - key_bits)) -
+         (std::int64_t{1} << (key_bits - 1));
+}
+
+std::int64_t key_of_name(const std::string& name) {
+  std::uint64_t address = 0;
+  for (const std::uint8_t byte : shortened(digest_of(name))) address = address << 8 | byte;
+  return key_of_address(address);
+}
+
+std::set<std::int64_t> keys_of(const TakeInfo& take, std::span<const ClipRecord> clips) {
+  std::set<std::int64_t> keys = {key_of_name(split_name(take.name).second), key_of_name(take.name)};
+  for (const ClipRecord& clip : clips) keys.insert(key_of_address(clip.id));
+  return keys;
+}
+
+ClipRecord clip_of(std::int64_t take, const StoredTake& stored) {
+  assert(stored.clip);
+  ClipRecord clip;
+  clip.id = stored.clip->address;
+  clip.take = take;
+  clip.kind = ClipKind::unique;
+  clip.group = stored.clip->group;
+  clip.frames = stored.record.info.frames;
+  clip.bytes = stored.clip->bytes;
+  return clip;
+}
+
+}  // namespace reprise

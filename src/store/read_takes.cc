@@ -1,0 +1,261 @@
+// Takes, their layers and their clips out of the archive, each held against its digest.
+#include <algorithm>
+#include <cassert>
+#include <tuple>
+
+#include "store/compression.h"
+#include "store/store_impl.h"
+
+namespace reprise {
+namespace {
+
+/// Largest layer that is taken out of an archive (bytes).
+constexpr std::size_t most_layer_bytes = std::size_t{1} << 30;
+
+[[noreturn]] void throw_damaged(const std::string& what) {
+  throw Error(ErrorCode::damaged, "the archive is damaged: " + what + " is not as it was written");
+}
+
+ClipRecord clip_row(Statement& row) {
+  ClipRecord clip;
+  clip.id = address_of(row.integer());
+  clip.take = row.integer();
+  clip.first_frame = static_cast<long>(row.integer());
+  clip.frames = static_cast<long>(row.integer());
+  clip.kind = static_cast<ClipKind>(row.integer());
+  clip.group = row.integer();
+  clip.primary = static_cast<std::uint64_t>(row.integer());
+  clip.bytes = static_cast<std::uint64_t>(row.integer());
+  return clip;
+}
+
+constexpr const char* clip_columns =
+    "SELECT address, take, first_frame, frames, kind, family, primary_clip, bytes FROM clips";
+
+/// What a take shares with others of its proportions.
+struct SharedFacts {
+  std::int64_t skeleton = 0;
+  double frame_rate = 0;
+  bool frame_rate_assumed = false;
+  MotionFormat format = MotionFormat::bvh;
+  std::uint64_t channels = 0;
+};
+using SharedFactsById = std::map<std::int64_t, SharedFacts>;
+
+/// These rows have digests of their own, which are held against what is decoded with them.
+SharedFacts read_shared_facts(const Database& database, std::int64_t proportions) {
+  Statement row(database,
+                "SELECT skeleton, frame_rate, assumed, format, channels FROM proportions JOIN "
+                "skeletons ON skeletons.id=proportions.skeleton WHERE proportions.id=?");
+  row.bind(proportions);
+  if (!row.step()) throw_damaged("the proportions " + std::to_string(proportions));
+  SharedFacts facts;
+  facts.skeleton = row.integer();
+  facts.frame_rate = row.real();
+  facts.frame_rate_assumed = row.integer() != 0;
+  facts.format = static_cast<MotionFormat>(row.integer());
+  facts.channels = static_cast<std::uint64_t>(row.integer());
+  return facts;
+}
+
+/// A stored take with what the rows say that it refers to. `known` are those read already.
+TakeRecord whole_record(const Database& database, const StoredTake& stored,
+                        SharedFactsById& known) {
+  TakeRecord record = stored.record;
+  const auto found = known.find(record.proportions);
+  const SharedFacts& facts =
+      found != known.end()
+          ? found->second
+          : known.emplace(record.proportions, read_shared_facts(database, record.proportions))
+                .first->second;
+  TakeInfo& info = record.info;
+  info.skeleton = facts.skeleton;
+  info.frame_rate = facts.frame_rate;
+  info.frame_rate_assumed = facts.frame_rate_assumed;
+  info.format = facts.format;
+  info.raw_bytes = 4 * facts.channels * static_cast<std::uint64_t>(info.frames);
+  return record;
+}
+
+/// Text for FTS5 in which every word must be found, whatever signs are in it.
+std::string all_words(const std::string& text) {
+  std::string query, word;
+  for (const char c : text + " ") {
+    if (c != ' ' && c != '\t') {
+      word += c;
+      if (c == '"') word += c;
+      continue;
+    }
+    if (!word.empty()) query += (query.empty() ? "" : " AND ") + ("\"" + word + "\"");
+    word.clear();
+  }
+  return query;
+}
+
+/// Takes whose words match, searched with FTS5 in a table that lives only in memory: nothing that
+/// is stored can be out of date or damaged.
+std::vector<TakeInfo> matching(const Database& database, const std::vector<TakeInfo>& takes,
+                               const std::string& text) {
+  Statement(database,
+            "CREATE VIRTUAL TABLE temp.words USING fts5(name, subject, description, tags)")
+      .run();
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    Statement(database,
+              "INSERT INTO temp.words(rowid, name, subject, description, tags) VALUES(?,?,?,?,?)")
+        .bind(static_cast<std::int64_t>(i))
+        .bind(takes[i].name)
+        .bind(takes[i].subject)
+        .bind(takes[i].description)
+        .bind(takes[i].tags)
+        .run();
+  }
+  std::vector<TakeInfo> result;
+  {
+    Statement found(database, "SELECT rowid FROM temp.words WHERE words MATCH ? ORDER BY rowid");
+    found.bind(all_words(text));
+    while (found.step()) result.push_back(takes[static_cast<std::size_t>(found.integer())]);
+  }
+  Statement(database, "DROP TABLE temp.words").run();
+  return result;
+}
+
+bool is_in_folder(const TakeInfo& info, const std::string& tail) {
+  return info.name == tail || info.name.ends_with("/" + tail);
+}
+
+}  // namespace
+
+void ArchiveStore::for_each_take(const std::function<void(const TakeRecord&)>& visit) const {
+  if (empty()) return;
+  SharedFactsById known;
+  impl_->for_each_block([&](const TakeBlock& block) {
+    for (const StoredTake& stored : block.takes)
+      visit(whole_record(*impl_->database, stored, known));
+  });
+}
+
+std::vector<TakeRecord> ArchiveStore::takes_named(const std::string& tail, bool whole) const {
+  std::vector<TakeRecord> records;
+  if (empty()) return records;
+  const std::int64_t key = key_of_name(whole ? tail : split_name(tail).second);
+  SharedFactsById known;
+  for (const std::int64_t id : impl_->takes_with_keys(key, key)) {
+    const auto block = impl_->block(block_of(id));
+    const StoredTake* stored = block ? block->find(id) : nullptr;
+    if (stored == nullptr) throw_damaged("the index of names");
+    const TakeInfo& info = stored->record.info;
+    if (whole ? info.name == tail : is_in_folder(info, tail))
+      records.push_back(whole_record(*impl_->database, *stored, known));
+  }
+  return records;
+}
+
+std::optional<TakeRecord> ArchiveStore::find_take(const std::string& name) const {
+  std::vector<TakeRecord> found = takes_named(name, true);
+  if (found.size() > 1) throw_damaged("the index of names");
+  return found.empty() ? std::nullopt : std::optional(std::move(found[0]));
+}
+
+TakeRecord ArchiveStore::take(std::int64_t id) const {
+  const auto block = impl_->block(block_of(id));
+  const StoredTake* stored = block ? block->find(id) : nullptr;
+  if (stored == nullptr) throw_damaged("take " + std::to_string(id));
+  SharedFactsById known;
+  return whole_record(*impl_->database, *stored, known);
+}
+
+Bytes ArchiveStore::layer(std::int64_t take, std::size_t index) const {
+  const std::string what = "the motion of take " + std::to_string(take);
+  const auto block = impl_->block(block_of(take));
+  const StoredTake* stored = block ? block->find(take) : nullptr;
+  if (stored == nullptr || index >= stored->places.size()) throw_damaged(what);
+  const LayerPlace& place = stored->places[index];
+  Bytes data = impl_->stored_layer(*block, place);
+  if (place.compressed) data = decompress(data, most_layer_bytes);
+  if (place.digest != shortened(digest_of(data))) throw_damaged(what);
+  return data;
+}
+
+std::vector<std::string> ArchiveStore::take_names_ending_in(const std::string& tail,
+                                                            std::size_t most) const {
+  std::vector<std::string> names;
+  for (const TakeRecord& record : takes_named(tail, false)) names.push_back(record.info.name);
+  std::ranges::sort(names);
+  names.resize(std::min(names.size(), most));
+  return names;
+}
+
+std::vector<TakeInfo> ArchiveStore::takes(const TakeFilter& filter) const {
+  std::vector<TakeInfo> takes;
+  const auto add_if_fitting = [&](const TakeRecord& record) {
+    const TakeInfo& info = record.info;
+    if (!filter.take.empty() && !is_in_folder(info, filter.take)) return;
+    if (!filter.subject.empty() && info.subject != filter.subject) return;
+    if (filter.kind && !has_clip_of_kind(info.id, *filter.kind)) return;
+    takes.push_back(info);
+  };
+  if (filter.take.empty()) {
+    for_each_take(add_if_fitting);
+  } else {
+    std::ranges::for_each(takes_named(filter.take, false), add_if_fitting);
+  }
+  std::ranges::sort(takes, {}, &TakeInfo::name);
+  return filter.text.empty() ? takes : matching(*impl_->database, takes, filter.text);
+}
+
+bool ArchiveStore::has_clip_of_kind(std::int64_t take, ClipKind kind) const {
+  const std::int64_t ids[] = {take};
+  return std::ranges::any_of(clips(ids), [&](const ClipRecord& clip) { return clip.kind == kind; });
+}
+
+std::vector<ClipRecord> ArchiveStore::clips(std::span<const std::int64_t> takes) const {
+  std::vector<ClipRecord> clips;
+  for (const std::int64_t take : takes) {
+    const auto block = impl_->block(block_of(take));
+    const StoredTake* stored = block ? block->find(take) : nullptr;
+    if (stored != nullptr && stored->clip) {
+      clips.push_back(clip_of(take, *stored));
+      continue;
+    }
+    Statement row =
+        impl_->prepare(std::string(clip_columns) + " WHERE take=? ORDER BY first_frame");
+    row.bind(take);
+    while (row.step()) clips.push_back(clip_row(row));
+  }
+  return clips;
+}
+
+std::vector<ClipRecord> ArchiveStore::clips_with_prefix(const std::string& hexadecimal) const {
+  assert(!hexadecimal.empty() && hexadecimal.size() <= 16);
+  std::uint64_t low = 0;
+  for (const char c : hexadecimal) {
+    low = low << 4 | std::string_view("0123456789abcdef").find(c);
+  }
+  const auto missing = 4 * (16 - static_cast<int>(hexadecimal.size()));
+  low = missing < 64 ? low << missing : low;
+  const std::uint64_t high = low + (missing > 0 ? (std::uint64_t{1} << missing) - 1 : 0);
+  std::vector<ClipRecord> found;
+  for (const std::int64_t take :
+       impl_->takes_with_keys(key_of_address(low), key_of_address(high))) {
+    const std::int64_t ids[] = {take};
+    for (const ClipRecord& clip : clips(ids)) {
+      if (clip.id >= low && clip.id <= high) found.push_back(clip);
+    }
+  }
+  std::ranges::sort(found, {}, [](const ClipRecord& clip) {
+    return std::tuple(clip.id, clip.take, clip.first_frame);
+  });
+  return found;
+}
+
+Digest ArchiveStore::content_of(std::int64_t id) const {
+  const TakeRecord record = take(id);
+  const std::int64_t ids[] = {id};
+  const std::vector<ClipRecord> own = clips(ids);
+  std::vector<Digest> layers;
+  for (std::size_t i = 0; i < record.layers.size(); ++i) layers.push_back(digest_of(layer(id, i)));
+  return take_content(record, proportions(record.proportions).identity,
+                      digest_of_space(record.space), layers, own);
+}
+
+}  // namespace reprise

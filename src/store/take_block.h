@@ -1,0 +1,71 @@
+// A block of takes: what is known of up to 64 of them, in the bytes of one row (docs/format.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "store/archive_store.h"
+#include "store/digest.h"
+
+namespace reprise {
+
+struct TakeBlockLimits {
+  static constexpr std::size_t takes = 64;
+  /// A block of so many bytes of coded motion takes no further take: what is damaged together, and
+  /// rewritten when a take is added, stays small.
+  static constexpr std::size_t open_bytes = 1u << 15;
+  static constexpr std::size_t parts = 16;      ///< of `spent`
+  static constexpr std::size_t quantiles = 64;  ///< bytes of a sketch
+};
+
+/// Where a layer's bytes are in the data of its block.
+struct LayerPlace {
+  std::size_t offset = 0;
+  std::size_t size = 0;
+  bool compressed = false;  ///< a zstd frame, else the layer as it is
+  ShortDigest digest{};     ///< of the layer
+};
+
+/// The clip of a take that is one unique clip from its first frame to its last.
+struct WholeTakeClip {
+  std::uint64_t address = 0;
+  std::int64_t group = 0;
+  std::uint64_t bytes = 0;
+};
+
+struct StoredTake {
+  std::size_t slot = 0;  ///< take = 64 x block + slot
+  /// Without what the rows of proportions and skeleton say, and without the data of layers.
+  TakeRecord record;
+  std::vector<LayerPlace> places;  ///< one a layer
+  std::optional<WholeTakeClip> clip;
+};
+
+struct TakeBlock {
+  std::int64_t id = 0;
+  std::vector<StoredTake> takes;  ///< by slot
+
+  const StoredTake* find(std::int64_t take) const;
+  std::int64_t id_of(const StoredTake& take) const;
+  std::size_t data_size() const;
+};
+
+std::int64_t block_of(std::int64_t take);
+
+Bytes pack_block(const TakeBlock& block);
+/// Throws Error (damaged) for anything that pack_block did not write.
+TakeBlock unpack_block(std::int64_t id, std::span<const std::uint8_t> bytes);
+/// Of a block's bytes, and of where it stands.
+ShortDigest block_digest(std::int64_t id, std::span<const std::uint8_t> bytes);
+
+/// Errors and limits are stored in whole micrometres.
+std::int64_t micrometres(double millimetres);
+
+/// The number that stands for a part of coded motion ("curves", ...). Parts are a closed list.
+std::uint64_t part_number(const std::string& name);
+std::string part_name(std::uint64_t number);
+
+}  // namespace reprise
