@@ -57,7 +57,7 @@ std::uint32_t bin(std::uint64_t sum, std::uint32_t count, int per_octave) {
   if (sum == 0) return 0;
   const auto width = static_cast<int>(std::bit_width(sum));
   auto result = static_cast<std::uint32_t>(width * per_octave);
-  if (per_octave == 2 && width > 1) result += (sum >> (width - 2)) & 1;
+  if (per_octave == 2 && width > 1) result += static_cast<std::uint32_t>(sum >> (width - 2) & 1);
   return std::min(result, count - 1);
 }
 
@@ -191,6 +191,19 @@ struct Reader {
   std::uint32_t plain(std::uint32_t, int count) { return decoder.decode_plain(count); }
 };
 
+struct Learner {
+  std::uint64_t& cost;
+  BitMixer& mixer;
+  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
+    cost += mixer.learn(contexts, bit);
+    return bit;
+  }
+  std::uint32_t plain(std::uint32_t value, int count) {
+    cost += static_cast<std::uint64_t>(count) << 16;
+    return value & ((1u << count) - 1);
+  }
+};
+
 std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
   std::array<std::size_t, BitModelConstants::inputs> sizes;
   for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = std::size_t{kinds} * context_counts[t];
@@ -211,6 +224,13 @@ ChannelKnots ChannelCoder::decode(RangeDecoder& decoder, const ChannelKnotShape&
   ChannelKnots knots = ChannelKnots::Zero(shape.frames, static_cast<Index>(shape.parents.size()));
   Walk<Reader>({decoder, mixer_}, shape, steps, knots).run();
   return knots;
+}
+
+double ChannelCoder::learn(const ChannelKnotShape& shape, const StepGrid& steps,
+                           ChannelKnots knots) {
+  std::uint64_t cost = 0;
+  Walk<Learner>({cost, mixer_}, shape, steps, knots).run();
+  return static_cast<double>(cost) / 65536;
 }
 
 }  // namespace reprise

@@ -34,6 +34,9 @@ class ChannelCoder {
   /// Whatever the bytes are, gives some knots.
   ChannelKnots decode(RangeDecoder& decoder, const ChannelKnotShape& shape, const StepGrid& steps);
 
+  /// Learns as if the knots had been coded; returns what they would cost, in bits.
+  double learn(const ChannelKnotShape& shape, const StepGrid& steps, ChannelKnots knots);
+
  private:
   BitMixer mixer_;
 };
