@@ -21,26 +21,47 @@ class ChannelQuantiser {
   /// Channels whose knots are too large for their step become stored ones.
   ChannelMatrix quantise(CodedChannels& coded);
 
-  /// After `quantise`: how much of a joint's error in a frame, along `direction` (of unit length),
-  /// the rounding of each channel that moves it brought in; zero for other channels.
-  std::vector<double> shares(std::size_t joint, Eigen::Index frame,
-                             const Eigen::Vector3d& direction, const Eigen::Vector3d& place) const;
+  /// After `quantise`: where a joint came to be in a frame, less where it was (mm).
+  Eigen::Vector3d displacement(std::size_t joint, Eigen::Index frame) const {
+    return bodies_[joint].decoded[index(frame)].position -
+           bodies_[joint].source[index(frame)].position;
+  }
 
-  const std::vector<int>& order() const { return order_; }
+  /// After `quantise`: how much of a joint's displacement in a frame, along the displacement, the
+  /// rounding of each channel that moves it brought in; zero for other channels.
+  std::vector<double> shares(std::size_t joint, Eigen::Index frame) const;
 
  private:
   using Twists = Eigen::Array<float, Eigen::Dynamic, 6>;
-  struct Channel {
+  /// A channel over all frames.
+  struct Trajectory {
     Twists motion, compensation;
-    Eigen::ArrayXf weight;
-    Eigen::ArrayXf residual;  ///< error that was not made up
+    Eigen::VectorXf residual;  ///< error that was not made up
+    Eigen::VectorXf weight;
+    Eigen::VectorXf sine, cosine;
     double mean_weight = 0;
   };
+  /// A joint over all frames.
+  struct Body {
+    std::vector<JointFrame> source, decoded;
+  };
+  /// A joint on its way: turned and placed as far as its channels are done.
+  struct Progress;
+
+  static std::size_t index(Eigen::Index frame) { return static_cast<std::size_t>(frame); }
+  void place_joint(std::size_t joint, std::size_t first_place, CodedChannels& coded,
+                   ChannelMatrix& decoded);
+  void add_bone(std::size_t joint, Progress& progress) const;
+  void expect(std::size_t place, const Progress& progress);
+  void quantise_channel(std::size_t place, CodedChannels& coded, ChannelMatrix& decoded);
+  void apply(std::size_t joint, int slot, std::size_t place, const ChannelMatrix& decoded,
+             Progress& progress) const;
 
   const Take& take_;
   std::vector<int> order_, parents_;
   std::vector<int> last_;  ///< of each joint: the last place that moves it, or -1
-  std::vector<Channel> channels_;
+  std::vector<Trajectory> channels_;
+  std::vector<Body> bodies_;
 };
 
 }  // namespace reprise

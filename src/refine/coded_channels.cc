@@ -1,5 +1,6 @@
 #include "refine/coded_channels.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -21,10 +22,17 @@ constexpr std::size_t most_bytes_past_end = 16;
 
 }  // namespace
 
-CodedChannels::CodedChannels(const Skeleton& skeleton, const TakeShape& take)
-    : shape{take.frames, knot_levels(take.frame_rate, take.frames), first_level_of(take.frame_rate),
-            coding_parents(skeleton)},
-      steps(skeleton, take.frames, shape.levels),
+TimeScales time_scales(const TakeShape& take, double seconds) {
+  const double apart = std::max(1.0, seconds * take.frame_rate);
+  int levels = std::clamp(static_cast<int>(std::lround(std::log2(apart))), 0, TimeScales::most);
+  while (levels > 0 && (Index{1} << levels) >= take.frames) --levels;
+  return {levels, std::max(0, levels - 1)};
+}
+
+CodedChannels::CodedChannels(const Skeleton& skeleton, const TakeShape& take, TimeScales time)
+    : scales(time),
+      shape{take.frames, time.levels, first_level_of(take.frame_rate), coding_parents(skeleton)},
+      steps(skeleton, take.frames, time.block_levels),
       knots(ChannelKnots::Zero(take.frames, static_cast<Index>(shape.parents.size()))),
       stored(take.frames, 0) {}
 
@@ -51,6 +59,8 @@ ChannelMatrix CodedChannels::channels(const Skeleton& skeleton) const {
 
 std::vector<std::uint8_t> CodedChannels::encode() const {
   RangeEncoder encoder;
+  encoder.encode_plain(static_cast<std::uint32_t>(scales.levels), TimeScales::bits);
+  encoder.encode_plain(static_cast<std::uint32_t>(scales.block_levels), TimeScales::bits);
   steps.encode(encoder);
   for (std::size_t i = 0; i < steps.base.size(); ++i) {
     if (steps.base[i] >= 0) continue;
@@ -64,22 +74,31 @@ std::vector<std::uint8_t> CodedChannels::encode() const {
   return encoder.finish();
 }
 
-void CodedChannels::decode(std::span<const std::uint8_t> bytes) {
+CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& take,
+                                    std::span<const std::uint8_t> bytes) {
   RangeDecoder decoder(bytes);
-  if (!steps.decode(decoder)) throw_damaged();
-  for (std::size_t i = 0; i < steps.base.size(); ++i) {
-    if (steps.base[i] >= 0) continue;
+  TimeScales time;
+  time.levels = static_cast<int>(decoder.decode_plain(TimeScales::bits));
+  time.block_levels = static_cast<int>(decoder.decode_plain(TimeScales::bits));
+  if (time.levels > TimeScales::most || time.block_levels > TimeScales::most) throw_damaged();
+  if (time.levels > 0 && (Index{1} << time.levels) >= take.frames) throw_damaged();
+  CodedChannels coded(skeleton, take, time);
+  if (!coded.steps.decode(decoder)) throw_damaged();
+  const ChannelKnotShape& shape = coded.shape;
+  for (std::size_t i = 0; i < coded.steps.base.size(); ++i) {
+    if (coded.steps.base[i] >= 0) continue;
     if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
-    if (stored.cols() == 0) stored = MatrixXd::Zero(shape.frames, knots.cols());
+    if (coded.stored.cols() == 0) coded.stored = MatrixXd::Zero(shape.frames, coded.knots.cols());
     for (Index f = 0; f < shape.frames; ++f) {
       const std::uint64_t high = decoder.decode_plain(32);
       const auto value = std::bit_cast<double>(high << 32 | decoder.decode_plain(32));
       if (!std::isfinite(value)) throw_damaged();
-      stored(f, static_cast<Index>(i)) = value;
+      coded.stored(f, static_cast<Index>(i)) = value;
     }
   }
-  knots = ChannelCoder().decode(decoder, shape, steps);
+  coded.knots = ChannelCoder().decode(decoder, shape, coded.steps);
   if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+  return coded;
 }
 
 }  // namespace reprise

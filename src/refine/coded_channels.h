@@ -12,16 +12,29 @@
 
 namespace reprise {
 
+/// How far apart the coarsest knots are, and how long steps stay the same: 2^n frames.
+struct TimeScales {
+  static constexpr int bits = 4;
+  static constexpr int most = 8;  ///< of NestedKnots
+  int levels = 0;
+  int block_levels = 0;
+};
+
+/// Coarsest knots about `seconds` apart, and at least two of them where there are two frames.
+TimeScales time_scales(const TakeShape& take, double seconds);
+
 struct CodedChannels {
-  CodedChannels(const Skeleton& skeleton, const TakeShape& take);
+  CodedChannels(const Skeleton& skeleton, const TakeShape& take, TimeScales scales);
+  /// Throws Error (damaged).
+  static CodedChannels decode(const Skeleton& skeleton, const TakeShape& take,
+                              std::span<const std::uint8_t> bytes);
 
   /// Frames of the channel at a place of the coding order, decoded.
   Eigen::VectorXd trajectory(std::size_t place) const;
   ChannelMatrix channels(const Skeleton& skeleton) const;
   std::vector<std::uint8_t> encode() const;
-  /// Throws Error (damaged).
-  void decode(std::span<const std::uint8_t> bytes);
 
+  TimeScales scales;
   ChannelKnotShape shape;
   StepGrid steps;
   ChannelKnots knots;      ///< the coarsest ones are differences from the one before

@@ -12,19 +12,6 @@ using Inertia = Eigen::Matrix<double, 6, 6>;
 
 constexpr double least_weight = 1e-9;
 
-/// Slots of a joint's channels from the root outwards: places, turns, stretch.
-std::vector<int> slots_outwards(const Joint& joint) {
-  std::vector<int> slots;
-  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-    if (is_position(joint.channels[c])) slots.push_back(static_cast<int>(c));
-  }
-  slots.insert(slots.end(), joint.rotation_slots.begin(), joint.rotation_slots.end());
-  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-    if (joint.channels[c] == Channel::length) slots.push_back(static_cast<int>(c));
-  }
-  return slots;
-}
-
 Matrix3d cross(const Vector3d& v) {
   Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -50,6 +37,18 @@ Twist shifting(const Vector3d& direction) {
 }
 
 }  // namespace
+
+std::vector<int> slots_outwards(const Joint& joint) {
+  std::vector<int> slots;
+  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+    if (is_position(joint.channels[c])) slots.push_back(static_cast<int>(c));
+  }
+  slots.insert(slots.end(), joint.rotation_slots.begin(), joint.rotation_slots.end());
+  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+    if (joint.channels[c] == Channel::length) slots.push_back(static_cast<int>(c));
+  }
+  return slots;
+}
 
 std::vector<int> coding_order(const Skeleton& skeleton) {
   std::vector<int> order;

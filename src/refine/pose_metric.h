@@ -25,6 +25,9 @@ struct ChannelMetric {
   double weight = 0;   ///< summed squares (mm^2) for a squared unit of what is not made up
 };
 
+/// Indices of a joint's channels from the root outwards: places, turns, stretch.
+std::vector<int> slots_outwards(const Joint& joint);
+
 /// Channels from the root outwards: a channel comes after all that it hangs on.
 std::vector<int> coding_order(const Skeleton& skeleton);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "refine/channel_quantiser.h"
 #include "refine/coded_channels.h"
 #include "refine/refiner.h"
 
@@ -16,9 +15,7 @@ Refinement refine(const Take& take, const ChannelMatrix*, double bound_mm, const
 ChannelMatrix decode_refinement(const Skeleton& skeleton, const TakeShape& shape,
                                 const ChannelMatrix*, std::span<const std::uint8_t> bytes,
                                 const RefinementModel&) {
-  CodedChannels coded(skeleton, shape);
-  coded.decode(bytes);
-  return coded.channels(skeleton);
+  return CodedChannels::decode(skeleton, shape, bytes).channels(skeleton);
 }
 
 }  // namespace reprise

@@ -15,6 +15,8 @@ constexpr double stubborn_share = 0.2;
 constexpr int most_passes = 40;
 /// Half octaves by which a stretch may be finer than the one that reaches into its misses.
 constexpr int most_apart = 3;
+/// Seconds between the coarsest knots, of which the better one is taken.
+constexpr double spans_s[] = {0.53, 1.06};
 /// Steps to start from, in parts of the bound. The best of them differs from take to take.
 constexpr double starts[] = {2.4, 3.4};
 /// Rounding of what is written as text with six decimals, and of other machines' sines.
@@ -27,55 +29,44 @@ Refiner::Refiner(const Take& take, double bound_mm)
       positions_(joint_positions(*take.skeleton, take.channels)),
       quantiser_(take, bound_mm) {}
 
-Refiner::Distances Refiner::distances(const ChannelMatrix& decoded) const {
+double Refiner::worst_distance(const ChannelMatrix& decoded) const {
   const PositionMatrix reached = joint_positions(*take_.skeleton, decoded);
-  const Index joints = reached.cols() / 3;
-  Distances result;
-  result.squared.resize(reached.rows(), joints);
   double worst = 0;
   for (Index f = 0; f < reached.rows(); ++f) {
-    for (Index j = 0; j < joints; ++j) {
+    for (Index j = 0; j < reached.cols(); j += 3) {
       const double squared =
-          (reached.row(f).segment<3>(3 * j) - positions_.row(f).segment<3>(3 * j)).squaredNorm();
-      result.squared(f, j) = static_cast<float>(squared);
+          (reached.row(f).segment<3>(j) - positions_.row(f).segment<3>(j)).squaredNorm();
       if (!(squared <= worst)) worst = squared;
     }
   }
-  result.worst = std::sqrt(worst);
-  return result;
+  return std::sqrt(worst);
 }
 
-bool Refiner::adapt(const Distances& distances, const ChannelMatrix& decoded, StepGrid& steps,
-                    bool stubborn) const {
-  const auto limit = static_cast<float>(bound_ * bound_);
-  const Index frames = take_.frames(), joints = distances.squared.cols();
+bool Refiner::adapt(StepGrid& steps, bool stubborn) const {
+  const double limit = bound_ * bound_;
   auto finer = steps.offsets;
   finer.setZero();
   bool missed = false;
-  std::vector<JointFrame> reached(static_cast<std::size_t>(joints));
-  for (Index j = 0; j < joints; ++j) {
-    for (Index f = 0; f < frames;) {
+  for (std::size_t j = 0; j < take_.skeleton->joints.size(); ++j) {
+    for (Index f = 0; f < take_.frames();) {
       const Index b = steps.block(f);
       Index worst = f;
-      for (; f < frames && steps.block(f) == b; ++f) {
-        if (distances.squared(f, j) > distances.squared(worst, j)) worst = f;
+      double most_squared = 0;
+      for (; f < take_.frames() && steps.block(f) == b; ++f) {
+        const double squared = quantiser_.displacement(j, f).squaredNorm();
+        if (squared <= most_squared) continue;
+        most_squared = squared;
+        worst = f;
       }
-      if (distances.squared(worst, j) <= limit) continue;
+      if (most_squared <= limit) continue;
       missed = true;
-      forward_kinematics(*take_.skeleton,
-                         {decoded.row(worst).data(), static_cast<std::size_t>(decoded.cols())},
-                         reached);
-      const Eigen::Vector3d source = positions_.row(worst).segment<3>(3 * j).transpose();
-      const Eigen::Vector3d error = reached[static_cast<std::size_t>(j)].position - source;
-      const Eigen::Vector3d origin = positions_.row(worst).head<3>().transpose();
-      const std::vector<double> shares = quantiser_.shares(static_cast<std::size_t>(j), worst,
-                                                           error.normalized(), source - origin);
+      const std::vector<double> shares = quantiser_.shares(j, worst);
       std::vector<double> groups(static_cast<std::size_t>(steps.offsets.cols()), 0.0);
       for (std::size_t i = 0; i < shares.size(); ++i) {
         if (steps.base[i] >= 0) groups[static_cast<std::size_t>(steps.group(i))] += shares[i];
       }
       const double most = *std::max_element(groups.begin(), groups.end());
-      const bool far = distances.squared(worst, j) > 2 * limit;
+      const bool far = most_squared > 2 * limit;
       // Coarse knots of the block beside this one reach into it.
       const bool early = 2 * worst < steps.first_frame(b) + steps.first_frame(b + 1);
       const Index beside = std::clamp<Index>(early ? b - 1 : b + 1, 0, steps.offsets.rows() - 1);
@@ -96,38 +87,47 @@ bool Refiner::adapt(const Distances& distances, const ChannelMatrix& decoded, St
   return missed;
 }
 
-bool Refiner::search(double step_mm, Refinement& best) {
-  CodedChannels coded(*take_.skeleton, {take_.frames(), take_.frame_rate});
+Refinement Refiner::search(double step_mm, TimeScales scales) {
+  Refinement result;
+  CodedChannels coded(*take_.skeleton, shape(), scales);
   quantiser_.set_steps(step_mm, coded.steps);
   for (int pass = 0; pass < most_passes; ++pass) {
-    const ChannelMatrix decoded = quantiser_.quantise(coded);
-    const Distances reached = distances(decoded);
-    if (reached.worst <= bound_) {
-      std::vector<std::uint8_t> bytes = coded.encode();
-      if (best.bytes.empty() || bytes.size() < best.bytes.size()) {
-        best.bytes = std::move(bytes);
-        best.decoded = decoded;
-        best.max_mm = reached.worst;
-      }
-      return true;
-    }
-    adapt(reached, decoded, coded.steps, pass >= stubborn_pass);
+    result.decoded = quantiser_.quantise(coded);
+    if (adapt(coded.steps, pass >= stubborn_pass)) continue;
+    result.max_mm = worst_distance(result.decoded);
+    if (result.max_mm <= bound_) result.bytes = coded.encode();
+    break;
   }
-  return false;
+  return result;
 }
 
 Refinement Refiner::run() {
+  const auto better = [](const Refinement& a, const Refinement& b) {
+    return !a.bytes.empty() && (b.bytes.empty() || a.bytes.size() < b.bytes.size());
+  };
   Refinement best;
-  for (const double part : starts) search(bound_ * part, best);
+  TimeScales best_scales = time_scales(shape(), spans_s[0]);
+  for (const double span : spans_s) {
+    const TimeScales scales = time_scales(shape(), span);
+    if (span != spans_s[0] && scales.levels == best_scales.levels) continue;
+    Refinement found = search(bound_ * starts[0], scales);
+    if (!better(found, best)) continue;
+    best = std::move(found);
+    best_scales = scales;
+  }
+  for (const double part : std::span(starts).subspan(1)) {
+    Refinement found = search(bound_ * part, best_scales);
+    if (better(found, best)) best = std::move(found);
+  }
   for (double step = bound_; best.bytes.empty() && step > bound_ / 1e4; step /= 2) {
-    search(step, best);
+    best = search(step, best_scales);
   }
   if (best.bytes.empty()) {
-    CodedChannels coded(*take_.skeleton, {take_.frames(), take_.frame_rate});
+    CodedChannels coded(*take_.skeleton, shape(), best_scales);
     std::fill(coded.steps.base.begin(), coded.steps.base.end(), -1);
     best.decoded = quantiser_.quantise(coded);
     best.bytes = coded.encode();
-    best.max_mm = distances(best.decoded).worst;
+    best.max_mm = worst_distance(best.decoded);
   }
   return best;
 }

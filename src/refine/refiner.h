@@ -12,16 +12,13 @@ class Refiner {
   Refinement run();
 
  private:
-  struct Distances {
-    Eigen::MatrixXf squared;  ///< frames x joints, mm^2
-    double worst = 0;         ///< mm
-  };
-  Distances distances(const ChannelMatrix& decoded) const;
-  /// Makes steps finer where the bound is missed; true if somewhere.
-  bool adapt(const Distances& distances, const ChannelMatrix& decoded, StepGrid& steps,
-             bool stubborn) const;
-  /// One search from a step for all.
-  bool search(double step_mm, Refinement& best);
+  /// Over all joints and frames, in mm.
+  double worst_distance(const ChannelMatrix& decoded) const;
+  /// Makes steps finer where the bound is missed; true if somewhere. `stubborn`: more of them.
+  bool adapt(StepGrid& steps, bool stubborn) const;
+  /// One search from a step for all; empty bytes where it comes to nothing.
+  Refinement search(double step_mm, TimeScales scales);
+  TakeShape shape() const { return {take_.frames(), take_.frame_rate}; }
 
   const Take& take_;
   double bound_;  ///< mm, less what rounding takes

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "quant/bit_model.h"
-#include "quant/numbers.h"
+#include "refine/pose_metric.h"
 
 namespace reprise {
 namespace {
@@ -33,26 +33,25 @@ std::array<double, Constants::most + 1> make_steps() {
   return steps;
 }
 
-/// Differences of offsets from the block before: zero, sign, size in unary.
-constexpr int unary_limit = Constants::most_offset - Constants::least_offset;
-constexpr std::size_t contexts = 9;
+/// Whole numbers around zero: zero, sign, size in unary.
+constexpr int unary_limit = 260;
 
-struct OffsetModel {
-  std::array<BitCounter, contexts> zero, sign;
-  std::array<std::array<BitCounter, 4>, contexts> more;
+struct SmallNumber {
+  BitCounter zero, sign;
+  std::array<BitCounter, 6> more;
 
   template <class CodeBit>
-  int code(int value, std::size_t context, CodeBit&& code_bit) {
+  int code(int value, CodeBit&& code_bit) {
     const auto decide = [&](BitCounter& counter, bool bit) {
       bit = code_bit(std::clamp<Probability>(counter.probability, 64, 65472), bit);
       counter.update(bit);
       return bit;
     };
-    if (!decide(zero[context], value != 0)) return 0;
-    const bool negative = decide(sign[context], value < 0);
+    if (!decide(zero, value != 0)) return 0;
+    const bool negative = decide(sign, value < 0);
     int size = 1;
     while (size < unary_limit &&
-           decide(more[context][static_cast<std::size_t>(std::min(size, 4) - 1)],
+           decide(more[std::min<std::size_t>(static_cast<std::size_t>(size), more.size()) - 1],
                   std::abs(value) > size)) {
       ++size;
     }
@@ -60,10 +59,37 @@ struct OffsetModel {
   }
 };
 
+/// Codes the steps of all channels with `code_bit(probability, bit)`, which returns the bit,
+/// written or read. False: there are no such steps.
+template <class CodeBit>
+bool code_base(std::vector<int>& base, const std::vector<bool>& turns, CodeBit&& code_bit) {
+  constexpr int most = Constants::most / Constants::per_base;
+  std::array<SmallNumber, 2> models;
+  std::array<int, 2> before;
+  before.fill(Constants::one / Constants::per_base);
+  BitCounter stored;
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    const bool is_stored =
+        code_bit(std::clamp<Probability>(stored.probability, 64, 65472), base[i] < 0);
+    stored.update(is_stored);
+    const std::size_t kind = turns[i];
+    if (is_stored) {
+      base[i] = -1;
+      continue;
+    }
+    before[kind] += models[kind].code(base[i] / Constants::per_base - before[kind], code_bit);
+    if (before[kind] < 0 || before[kind] > most) return false;
+    base[i] = before[kind] * Constants::per_base;
+  }
+  return true;
+}
+
+constexpr std::size_t contexts = 9;
+
 /// Codes all offsets with `code_bit(probability, bit)`, which returns the bit, written or read.
 template <class Offsets, class CodeBit>
 void code_offsets(Offsets& offsets, const std::vector<int>& parents, CodeBit&& code_bit) {
-  OffsetModel model;
+  std::array<SmallNumber, contexts> models;
   const auto change = [&](Index b, Index g) {
     return g < 0 ? 0 : offsets(b, g) - (b > 0 ? offsets(b - 1, g) : 0);
   };
@@ -75,7 +101,7 @@ void code_offsets(Offsets& offsets, const std::vector<int>& parents, CodeBit&& c
       const int before = b > 0 ? offsets(b - 1, g) : 0;
       const std::size_t context =
           of_sign(change(b, parents[static_cast<std::size_t>(g)])) * 3 + of_sign(before);
-      const int value = before + model.code(offsets(b, g) - before, context, code_bit);
+      const int value = before + models[context].code(offsets(b, g) - before, code_bit);
       offsets(b, g) = static_cast<std::int8_t>(
           std::clamp(value, Constants::least_offset, Constants::most_offset));
     }
@@ -91,9 +117,11 @@ double step_of(int index) {
 
 int step_index(double step) {
   if (!(step > 0)) return 0;
+  constexpr double per_octave = Constants::per_octave / Constants::per_base;
   const double octaves = std::clamp(std::log2(step), -60.0, 60.0);
-  return std::clamp(static_cast<int>(std::lround(octaves * Constants::per_octave)) + Constants::one,
-                    0, Constants::most);
+  return std::clamp(
+      static_cast<int>(std::lround(octaves * per_octave)) * Constants::per_base + Constants::one, 0,
+      Constants::most / Constants::per_base * Constants::per_base);
 }
 
 StepGrid::StepGrid(const Skeleton& skeleton, long frames, int levels)
@@ -109,37 +137,29 @@ StepGrid::StepGrid(const Skeleton& skeleton, long frames, int levels)
     group_of_joint.push_back(static_cast<int>(parents_.size()));
     parents_.push_back(above);
     groups_.insert(groups_.end(), joint.channels.size(), group_of_joint.back());
+    for (const int slot : slots_outwards(joint)) {
+      turns_.push_back(is_rotation(joint.channels[static_cast<std::size_t>(slot)]));
+    }
   }
   base.assign(groups_.size(), Constants::one);
   offsets.setZero(block(frames - 1) + 1, static_cast<Index>(parents_.size()));
 }
 
 void StepGrid::encode(RangeEncoder& encoder) const {
-  int before = Constants::one;
-  for (const int index : base) {
-    encoder.encode_plain(index < 0, 1);
-    if (index < 0) continue;
-    encode_signed(encoder, index - before);
-    before = index;
-  }
-  auto copy = offsets;
-  code_offsets(copy, parents_, [&](Probability one, bool bit) {
+  const auto code_bit = [&](Probability one, bool bit) {
     encoder.encode(bit, one);
     return bit;
-  });
+  };
+  auto steps = base;
+  code_base(steps, turns_, code_bit);
+  auto finer = offsets;
+  code_offsets(finer, parents_, code_bit);
 }
 
 bool StepGrid::decode(RangeDecoder& decoder) {
-  std::int64_t before = Constants::one;
-  for (int& index : base) {
-    index = -1;
-    if (decoder.decode_plain(1) != 0) continue;
-    before += decode_signed(decoder);
-    if (before < 0 || before > Constants::most) return false;
-    if (decoder.bytes_past_end() > most_bytes_past_end) return false;
-    index = static_cast<int>(before);
-  }
-  code_offsets(offsets, parents_, [&](Probability one, bool) { return decoder.decode(one); });
+  const auto code_bit = [&](Probability one, bool) { return decoder.decode(one); };
+  if (!code_base(base, turns_, code_bit)) return false;
+  code_offsets(offsets, parents_, code_bit);
   return decoder.bytes_past_end() <= most_bytes_past_end;
 }
 

@@ -17,13 +17,14 @@ struct StepConstants {
   static constexpr int one = 320;  ///< index of the step 1
   static constexpr int most = 511;
   static constexpr int per_octave = 8;
+  static constexpr int per_base = 2;    ///< a channel's step is a quarter of an octave
   static constexpr int per_offset = 4;  ///< an offset is half an octave
   static constexpr int least_offset = -8, most_offset = 40;
 };
 
 /// The step of an index, cut to 0 .. most.
 double step_of(int index);
-/// The index of the step nearest to a positive number.
+/// The multiple of per_base whose step is nearest to a positive number.
 int step_index(double step);
 
 class StepGrid {
@@ -31,7 +32,7 @@ class StepGrid {
   StepGrid() = default;
   StepGrid(const Skeleton& skeleton, long frames, int levels);
 
-  /// Stretches of time reach half-way between the coarsest knots.
+  /// Stretches of time are 2^levels frames long, around the frames at multiples of that.
   Eigen::Index block(Eigen::Index frame) const { return (frame + half_) >> levels_; }
   Eigen::Index first_frame(Eigen::Index block) const { return (block << levels_) - half_; }
   int group(std::size_t place) const { return groups_[place]; }
@@ -46,7 +47,8 @@ class StepGrid {
   /// False: the bytes are not a grid's.
   bool decode(RangeDecoder& decoder);
 
-  /// Of each channel in coding order; -1: its numbers are stored as they are.
+  /// Of each channel in coding order, a multiple of per_base; -1: its numbers are stored as they
+  /// are.
   std::vector<int> base;
   /// blocks x joints with channels: half octaves finer.
   Eigen::Matrix<std::int8_t, Eigen::Dynamic, Eigen::Dynamic> offsets;
@@ -55,6 +57,7 @@ class StepGrid {
   int levels_ = 0;
   Eigen::Index half_ = 0;
   std::vector<int> groups_;   ///< of each channel
+  std::vector<bool> turns_;   ///< of each channel: it is a rotation
   std::vector<int> parents_;  ///< of each group: the group it hangs on, or -1
 };
 
