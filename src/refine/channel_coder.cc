@@ -16,13 +16,16 @@ using Eigen::Index;
 constexpr std::uint32_t level_slots = 14;
 constexpr std::uint32_t bins = 24;  ///< of an expected magnitude
 constexpr std::uint32_t few_bins = 8;
-constexpr std::uint32_t last_bucket = 59;  ///< of numbers up to 2^29
+constexpr std::uint32_t most_channel = 255;  ///< later channels share contexts
+constexpr int activity_decay = 3;            ///< an eighth a channel
+constexpr std::uint32_t last_bucket = 59;    ///< of numbers up to 2^29
 /// Is it beyond bucket 0, 1, ..; those from here on share their counters.
 constexpr std::uint32_t decisions = 31;
 constexpr std::uint32_t sign_decision = decisions, mantissa_decisions = decisions + 1;
 constexpr std::uint32_t kinds = decisions + 1 + 2 * decisions;
 constexpr std::array<std::uint32_t, BitModelConstants::inputs> context_counts = {
-    bins * level_slots, bins* few_bins, bins* few_bins, few_bins* few_bins* few_bins, 4096};
+    bins * level_slots, bins* few_bins, bins* few_bins, bins* few_bins* few_bins,
+    (most_channel + 1) * level_slots};
 
 /// Buckets 0, 1, 2, 3, 4-5, 6-7, 8-11, 12-15, ..: the first number of each, and its bits.
 struct Bucket {
@@ -71,7 +74,8 @@ class Walk {
         shape_(shape),
         steps_(steps),
         knots_(knots),
-        sizes_(Sizes::Zero(knots.rows(), knots.cols())) {}
+        sizes_(Sizes::Zero(knots.rows(), knots.cols())),
+        activity_(Eigen::Matrix<std::uint64_t, Eigen::Dynamic, 1>::Zero(knots.rows())) {}
 
   void run() {
     for (channel_ = 0; channel_ < knots_.cols(); ++channel_) {
@@ -90,6 +94,17 @@ class Walk {
     return frame < 0 || frame >= shape_.frames || channel < 0 ? 0 : sizes_(frame, channel);
   }
 
+  std::uint64_t activity(Index frame) const {
+    return frame < 0 || frame >= shape_.frames ? 0 : activity_[frame];
+  }
+  /// 0 negative, 1 zero or not there, 2 positive.
+  std::uint32_t sign(Index frame, Index channel) const {
+    if (frame < 0 || frame >= shape_.frames || channel < 0) return 1;
+    const std::int32_t value = knots_(frame, channel);
+    return value < 0 ? 0 : value > 0 ? 2 : 1;
+  }
+
+  /// Knots of the coarser levels are `apart` from `f` on both sides; those of its own level `step`.
   void code(Index f, Index apart, int level) {
     const bool coarsest = level == shape_.levels;
     const Index step = coarsest ? apart : 2 * apart;
@@ -98,42 +113,56 @@ class Walk {
                  : std::min<std::uint32_t>(level_slots - 2,
                                            static_cast<std::uint32_t>(level + shape_.first_level));
     const int offset = steps_.offset(static_cast<std::size_t>(channel_), f);
-    const auto scaled = [&](std::uint64_t sum, int bits) {
-      return finer(sum, offset) >> (size_bits - bits);
-    };
-    const std::uint64_t a = size(f - step, channel_), a2 = size(f - 2 * step, channel_);
-    const std::uint64_t up = coarsest ? 0 : size(f - apart, channel_) + size(f + apart, channel_);
-    const Index parent = shape_.parents[static_cast<std::size_t>(channel_)];
-    const auto around = [&](Index c) {
-      return 2 * size(f, c) + size(f - step, c) + size(f + step, c);
-    };
-    const std::uint64_t beside = around(channel_ - 1), chain = around(parent),
-                        beside2 = around(channel_ - 2);
-    const std::uint64_t own = 8 * a + 4 * a2 + 2 * up;
-    const std::uint64_t all = 2 * own + beside + chain + beside2 / 2;
-    base_[0] = bin(scaled(all, 0), bins, 2) * level_slots + slot;
-    base_[1] =
-        bin(scaled(own, 0), bins, 2) * few_bins + bin(scaled(beside + chain, 0), few_bins, 1);
-    base_[2] = bin(scaled(beside * 2 + chain * 2 + beside2, 0), bins, 2) * few_bins +
-               bin(scaled(a, 0), few_bins, 1);
-    base_[3] =
-        (bin(scaled(up, 0), few_bins, 1) * few_bins + bin(scaled(a, 0), few_bins, 1)) * few_bins +
-        bin(scaled(a2, 0), few_bins, 1);
-    base_[4] =
-        (std::min<std::uint32_t>(static_cast<std::uint32_t>(channel_), 255) * level_slots + slot);
-    weights_ = slot;
+    expect_size(f, step, coarsest ? shape_.frames : apart, slot, offset);
+    expect_sign(f, step, coarsest ? shape_.frames : apart, slot);
     knots_(f, channel_) = code_value(knots_(f, channel_));
     const auto magnitude = static_cast<std::uint64_t>(
         std::min<std::int64_t>(std::abs(std::int64_t{knots_(f, channel_)}), most_size));
     sizes_(f, channel_) = finer(magnitude << size_bits, -offset);
+    activity_[f] += sizes_(f, channel_);
+    activity_[f] -= activity_[f] >> activity_decay;
+  }
+
+  void expect_size(Index f, Index step, Index apart, std::uint32_t slot, int offset) {
+    const auto in_bins = [&](std::uint64_t sum, std::uint32_t count, int per_octave) {
+      return bin(finer(sum, offset) >> size_bits, count, per_octave);
+    };
+    const auto around = [&](Index c) {
+      return 2 * size(f, c) + size(f - step, c) + size(f + step, c);
+    };
+    const std::uint64_t before = size(f - step, channel_);
+    const std::uint64_t coarser = size(f - apart, channel_) + size(f + apart, channel_);
+    const std::uint64_t own = 8 * before + 4 * size(f - 2 * step, channel_) + 2 * coarser;
+    const std::uint64_t beside = around(channel_ - 1);
+    const std::uint64_t chain = around(shape_.parents[static_cast<std::size_t>(channel_)]);
+    const std::uint64_t active = 2 * activity(f) + activity(f - step) + activity(f + step);
+    const std::uint32_t before_bin = in_bins(before, few_bins, 1);
+    size_contexts_ = {
+        in_bins(2 * own + beside + chain + active / 4, bins, 2) * level_slots + slot,
+        in_bins(own, bins, 2) * few_bins + in_bins(beside + chain, few_bins, 1),
+        in_bins(2 * beside + 2 * chain + around(channel_ - 2), bins, 2) * few_bins + before_bin,
+        (in_bins(active, bins, 2) * few_bins + before_bin) * few_bins +
+            in_bins(coarser, few_bins, 1),
+        std::min(static_cast<std::uint32_t>(channel_), most_channel) * level_slots + slot};
+  }
+
+  void expect_sign(Index f, Index step, Index apart, std::uint32_t slot) {
+    const std::uint32_t before = sign(f - step, channel_), beside = sign(f, channel_ - 1);
+    const std::uint32_t chain = sign(f, shape_.parents[static_cast<std::size_t>(channel_)]);
+    const std::uint32_t left = sign(f - apart, channel_), right = sign(f + apart, channel_);
+    sign_contexts_ = {
+        before * level_slots + slot, (left * 3 + right) * 3 + before,
+        (chain * 3 + beside) * 3 + sign(f, channel_ - 2), sign(f - 2 * step, channel_) * 3 + before,
+        (std::min(static_cast<std::uint32_t>(channel_), most_channel) * 3 + chain) * 3 + beside};
   }
 
   bool decide(std::uint32_t kind, bool bit) {
     BitMixer::Contexts contexts;
     for (std::size_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] = kind * context_counts[t] + base_[t];
+      contexts.counter[t] =
+          kind * context_counts[t] + (kind == sign_decision ? sign_contexts_ : size_contexts_)[t];
     }
-    contexts.weights = kind * level_slots + weights_;
+    contexts.weights = kind;
     return io_(contexts, bit);
   }
 
@@ -163,9 +192,10 @@ class Walk {
   const StepGrid& steps_;
   ChannelKnots& knots_;
   Sizes sizes_;
+  /// Of each frame: sizes of the channels before, the nearest ones most.
+  Eigen::Matrix<std::uint64_t, Eigen::Dynamic, 1> activity_;
   Index channel_ = 0;
-  std::array<std::uint32_t, BitModelConstants::inputs> base_{};
-  std::uint32_t weights_ = 0;
+  std::array<std::uint32_t, BitModelConstants::inputs> size_contexts_{}, sign_contexts_{};
 };
 
 struct Writer {
@@ -212,7 +242,7 @@ std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
 
 }  // namespace
 
-ChannelCoder::ChannelCoder() : mixer_(table_sizes(), std::size_t{kinds} * level_slots) {}
+ChannelCoder::ChannelCoder() : mixer_(table_sizes(), kinds) {}
 
 void ChannelCoder::encode(RangeEncoder& encoder, const ChannelKnotShape& shape,
                           const StepGrid& steps, ChannelKnots knots) {

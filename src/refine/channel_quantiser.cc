@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 /// A knot is rounded up from 0.5 + this part of its step on: zeros cost least.
-constexpr double dead_zone = 0.2;
+constexpr double dead_zone = 0.14;
 /// Turns about a straight limb move nothing, up to some angle: beyond it compensation, which is
 /// linear, goes wrong. The arm (mm) that holds them grows with the root of the bound (mm).
 constexpr double arm_at_one_mm = 20;
