@@ -1,57 +1,251 @@
 #include "exact/text_codec.h"
 
-#include <zstd.h>
-
 #include <algorithm>
-#include <memory>
-#include <new>
+#include <cassert>
+#include <optional>
 
+#include "exact/number_coder.h"
+#include "exact/plain_frame.h"
+#include "exact/table_header.h"
+#include "exact/text_layout.h"
 #include "reprise/error.h"
-#include "reprise/formats/motion_file.h"
 
 namespace reprise {
 namespace {
 
-constexpr int level = 19;
+constexpr std::size_t most_text = std::size_t{1} << 31;  // InputLimits::file_bytes
+constexpr std::size_t most_columns = 1u << 16;
 
-struct Free {
-  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
-  void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+/// The first byte of coded texts.
+enum Mode : std::uint8_t { plain = 0, numbers = 1 };
+constexpr std::uint8_t mode_mask = 3;
+constexpr std::uint8_t follows_known = 4;  ///< the text is what comes after the known text
+
+/// What follows a row.
+struct RowKinds {
+  BitCounter usual, odd;
 };
 
-[[noreturn]] void throw_damaged() {
-  throw Error(ErrorCode::damaged, "the text of a take is not as it was written");
+[[noreturn]] void throw_damaged(const char* why) {
+  throw Error(ErrorCode::damaged, std::string("a coded text is damaged: ") + why);
 }
 
-}  // namespace
+void append_length(std::vector<std::uint8_t>& bytes, std::size_t length) {
+  for (; length >= 128; length >>= 7) bytes.push_back(static_cast<std::uint8_t>(length | 128));
+  bytes.push_back(static_cast<std::uint8_t>(length));
+}
 
-std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text) {
-  const std::unique_ptr<ZSTD_CCtx, Free> context(ZSTD_createCCtx());
-  if (!context) throw std::bad_alloc();
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
-  if (!known_text.empty()) {
-    ZSTD_CCtx_refPrefix(context.get(), known_text.data(), known_text.size());
+std::size_t take_length(std::span<const std::uint8_t>& bytes) {
+  std::size_t length = 0;
+  for (int shift = 0; shift < 35; shift += 7) {
+    if (bytes.empty()) throw_damaged("it ends too early");
+    const std::uint8_t byte = bytes.front();
+    bytes = bytes.subspan(1);
+    length |= static_cast<std::size_t>(byte & 127) << shift;
+    if (byte < 128) return length;
   }
-  std::vector<std::uint8_t> coded(ZSTD_compressBound(text.size()));
-  const std::size_t size =
-      ZSTD_compress2(context.get(), coded.data(), coded.size(), text.data(), text.size());
-  if (ZSTD_isError(size)) throw std::bad_alloc();
-  coded.resize(size);
+  throw_damaged("a length is too long");
+}
+
+/// Header, pattern, odd frames and escaped numbers, in the order in which a decoder needs them.
+std::string text_beside_numbers(const TextLayout& layout, const NumberTable& table) {
+  std::string text(layout.header);
+  text.push_back(string_end);
+  text.append(layout.pattern);
+  text.push_back(string_end);
+  std::size_t next = 0;
+  for (const auto& frame : layout.frames) {
+    if (frame.odd) {
+      text.append(frame.text);
+      text.push_back(string_end);
+      continue;
+    }
+    for (const std::size_t end = next + layout.slots; next < end; ++next) {
+      if (!table.escaped[next]) continue;
+      text.append(layout.numbers[next]);
+      text.push_back(string_end);
+    }
+  }
+  return text;
+}
+
+const LinearPrediction& prediction_of(const TextModel& model, std::size_t columns) {
+  static const LinearPrediction none;
+  return model.prediction.terms.size() == columns ? model.prediction : none;
+}
+
+/// Nothing, where the text has no frames of numbers.
+std::optional<std::vector<std::uint8_t>> encode_numbers(std::string_view text,
+                                                        const TextModel& model) {
+  const TextLayout layout = read_layout(text);
+  if (layout.slots == 0 || layout.slots > most_columns) return std::nullopt;
+  NumberTable table = read_numbers(layout.numbers, layout.slots);
+  if (table.numbers.empty()) return std::nullopt;
+  RangeEncoder encoder;
+  encode_table_header(encoder, table, model.usual);
+  Writing coding(encoder);
+  coding.number(static_cast<std::uint32_t>(layout.cut));
+  NumberCoder coder(table, prediction_of(model, layout.slots));
+  RowKinds kinds;
+  std::vector<std::uint8_t> escaped(layout.slots);
+  std::size_t next = 0;
+  for (const auto& frame : layout.frames) {
+    coding.bit(kinds.usual, !frame.odd);
+    if (frame.odd) {
+      coding.bit(kinds.odd, true);
+      continue;
+    }
+    std::copy_n(table.escaped.begin() + static_cast<std::ptrdiff_t>(next), layout.slots,
+                escaped.begin());
+    coder.code_row(coding, {std::span(table.numbers).subspan(next, layout.slots), escaped});
+    next += layout.slots;
+  }
+  coding.bit(kinds.usual, false);
+  coding.bit(kinds.odd, false);
+
+  std::vector<std::uint8_t> coded = {Mode::numbers};
+  const auto beside = compress_plain(text_beside_numbers(layout, table), model.sample);
+  append_length(coded, beside.size());
+  coded.insert(coded.end(), beside.begin(), beside.end());
+  const auto bits = encoder.finish();
+  coded.insert(coded.end(), bits.begin(), bits.end());
   return coded;
 }
 
-std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text) {
-  const unsigned long long size = ZSTD_getFrameContentSize(coded.data(), coded.size());
-  if (size > InputLimits::file_bytes) throw_damaged();
-  const std::unique_ptr<ZSTD_DCtx, Free> context(ZSTD_createDCtx());
-  if (!context) throw std::bad_alloc();
-  if (!known_text.empty()) {
-    ZSTD_DCtx_refPrefix(context.get(), known_text.data(), known_text.size());
+/// Reads strings up to their ends.
+class Strings {
+ public:
+  explicit Strings(std::string_view text) : rest_(text) {}
+  std::string_view next() {
+    const std::size_t end = rest_.find(string_end);
+    if (end == std::string_view::npos) throw_damaged("a string is missing");
+    const std::string_view string = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    return string;
   }
-  std::string text(size, '\0');
-  const std::size_t got =
-      ZSTD_decompressDCtx(context.get(), text.data(), text.size(), coded.data(), coded.size());
-  if (ZSTD_isError(got) || got != size) throw_damaged();
+
+ private:
+  std::string_view rest_;
+};
+
+class NumbersDecoder {
+ public:
+  NumbersDecoder(std::span<const std::uint8_t> bits, std::string_view beside,
+                 const TextModel& model)
+      : decoder_(bits), coding_(decoder_), strings_(beside), model_(model) {}
+
+  void append_to(std::string& text) {
+    text.append(strings_.next());
+    const auto pieces = pieces_of(strings_.next());
+    NumberTable table;
+    if (pieces.size() - 1 > most_columns) throw_damaged("it has too many columns");
+    table.columns.resize(pieces.size() - 1);
+    decode_table_header(decoder_, table, model_.usual);
+    const std::size_t cut = coding_.number(0);
+    NumberCoder coder(table, prediction_of(model_, table.columns.size()));
+    prepare(coder, pieces);
+    std::vector<CodedNumber> numbers(table.columns.size());
+    std::vector<std::uint8_t> escaped(table.columns.size());
+    for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c] = table.columns[c].first;
+    RowKinds kinds;
+    for (;;) {
+      if (coding_.at_end()) throw_damaged("it ends too early");
+      if (text.size() > most_text) throw_damaged("it is longer than any text");
+      if (coding_.bit(kinds.usual, false)) {
+        coder.code_row(coding_, {numbers, escaped});
+        append_row(coder, numbers, escaped, text);
+      } else if (coding_.bit(kinds.odd, false)) {
+        text.append(strings_.next());
+      } else {
+        break;
+      }
+    }
+    if (cut > text.size()) throw_damaged("it is cut by more than it has");
+    text.resize(text.size() - cut);
+  }
+
+ private:
+  /// The text from the start of a row, or the last changing number, up to a changing number.
+  struct Piece {
+    std::string text;
+    std::size_t column = 0;
+  };
+
+  void prepare(const NumberCoder& coder, const std::vector<std::string_view>& pieces) {
+    std::string text;
+    for (std::size_t c = 0; c + 1 < pieces.size(); ++c) {
+      text.append(pieces[c]);
+      if (coder.columns()[c].constant) {
+        coder.printer(c).print(coder.columns()[c].first, text);
+      } else {
+        pieces_.push_back({std::move(text), c});
+        text.clear();
+      }
+    }
+    text.append(pieces.back());
+    end_ = std::move(text);
+  }
+
+  void append_row(const NumberCoder& coder, std::span<const CodedNumber> numbers,
+                  std::span<const std::uint8_t> escaped, std::string& text) {
+    for (const Piece& piece : pieces_) {
+      text.append(piece.text);
+      if (escaped[piece.column] != 0) {
+        text.append(strings_.next());
+      } else {
+        coder.printer(piece.column).print(numbers[piece.column], text);
+      }
+    }
+    text.append(end_);
+  }
+
+  RangeDecoder decoder_;
+  Reading coding_;
+  Strings strings_;
+  const TextModel& model_;
+  std::vector<Piece> pieces_;
+  std::string end_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text,
+                                      const TextModel& model) {
+  const bool follows = text.starts_with(known_text);
+  const std::string_view rest = follows ? text.substr(known_text.size()) : text;
+  const std::uint8_t flags = follows ? follows_known : 0;
+  auto coded = encode_numbers(rest, model);
+  if (coded) {
+    coded->front() |= flags;
+    if (decode_text(*coded, known_text, model) != text) coded.reset();
+  }
+  if (coded && coded->size() * 2 < rough_plain_size(rest)) return std::move(*coded);
+  std::vector<std::uint8_t> plainly = {static_cast<std::uint8_t>(Mode::plain | flags)};
+  const auto frame = compress_plain(rest, {});
+  plainly.insert(plainly.end(), frame.begin(), frame.end());
+  if (coded && coded->size() < plainly.size()) return std::move(*coded);
+  assert(decode_text(plainly, known_text, model) == text);
+  return plainly;
+}
+
+std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
+                        const TextModel& model) {
+  if (coded.empty()) throw_damaged("it is empty");
+  const std::uint8_t mode = coded.front() & mode_mask;
+  if ((coded.front() & ~(mode_mask | follows_known)) != 0) throw_damaged("it is of no known kind");
+  std::string text;
+  if ((coded.front() & follows_known) != 0) text.append(known_text);
+  std::span<const std::uint8_t> rest = coded.subspan(1);
+  if (mode == Mode::plain) {
+    text.append(decompress_plain(rest, {}, most_text));
+  } else if (mode == Mode::numbers) {
+    const std::size_t length = take_length(rest);
+    if (length > rest.size()) throw_damaged("it ends too early");
+    const std::string beside = decompress_plain(rest.first(length), model.sample, most_text);
+    NumbersDecoder(rest.subspan(length), beside, model).append_to(text);
+  } else {
+    throw_damaged("it is of no known kind");
+  }
   return text;
 }
 

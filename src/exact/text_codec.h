@@ -1,4 +1,5 @@
-// A motion file's text as bytes and back, byte for byte.
+// A motion file's text byte for byte: its numbers as integers, predicted and range coded, and
+// what surrounds them. Decoding uses integers alone. docs/format.md describes the coded form.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +8,20 @@
 #include <string_view>
 #include <vector>
 
+#include "exact/text_model.h"
+
 namespace reprise {
 
-/// `known_text` is what the decoder has already (BVH: the text before the line MOTION).
-std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text);
+/// Codes any bytes. `known_text` is what the decoder has already: of a BVH the text before the
+/// line MOTION. The result was decoded and compared, and is at most one byte larger than the
+/// text as a zstd frame of level 19.
+std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text,
+                                      const TextModel& model = {});
 
-/// Throws Error (damaged).
-std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text);
+/// The bytes again, given the same `known_text` and model. Throws Error (damaged) for anything
+/// that `encode_text` did not write, where it can be told; memory grows with what is decoded, and
+/// not with what the bytes claim.
+std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
+                        const TextModel& model = {});
 
 }  // namespace reprise

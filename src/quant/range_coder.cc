@@ -1,5 +1,7 @@
 #include "quant/range_coder.h"
 
+#include <algorithm>
+
 namespace reprise {
 namespace {
 
@@ -30,6 +32,15 @@ void RangeEncoder::encode(bool bit, Probability one) {
 
 void RangeEncoder::encode_plain(std::uint32_t value, int count) {
   for (int b = count - 1; b >= 0; --b) encode((value >> b & 1) != 0, 1u << (probability_bits - 1));
+}
+
+void RangeEncoder::encode_uniform(std::uint32_t value, std::uint32_t total) {
+  range_ /= total;
+  low_ += static_cast<std::uint64_t>(range_) * value;
+  while (range_ < least_range) {
+    range_ <<= 8;
+    shift_low();
+  }
 }
 
 void RangeEncoder::shift_low() {
@@ -95,6 +106,18 @@ bool RangeDecoder::decode(Probability one) {
 std::uint32_t RangeDecoder::decode_plain(int count) {
   std::uint32_t value = 0;
   for (int b = 0; b < count; ++b) value = value << 1 | decode(1u << (probability_bits - 1));
+  return value;
+}
+
+std::uint32_t RangeDecoder::decode_uniform(std::uint32_t total) {
+  range_ /= total;
+  // Only what no encoder wrote is past the last of the numbers.
+  const std::uint32_t value = std::min(code_ / range_, total - 1);
+  code_ -= value * range_;
+  while (range_ < least_range) {
+    range_ <<= 8;
+    code_ = code_ << 8 | next_byte();
+  }
   return value;
 }
 

@@ -16,6 +16,8 @@ class RangeEncoder {
   void encode(bool bit, Probability one);
   /// `count` bits (at most 32) at one half each, high bit first.
   void encode_plain(std::uint32_t value, int count);
+  /// One of `total` (at most 2^16) numbers that are all as likely.
+  void encode_uniform(std::uint32_t value, std::uint32_t total);
   /// Ends the stream. Up to eight trailing zero bytes are left out: the decoder reads zeros past
   /// the end.
   std::vector<std::uint8_t> finish();
@@ -35,6 +37,7 @@ class RangeDecoder {
   explicit RangeDecoder(std::span<const std::uint8_t> bytes);
   bool decode(Probability one);
   std::uint32_t decode_plain(int count);
+  std::uint32_t decode_uniform(std::uint32_t total);
   /// How many bytes past the end were asked for: more than a few, and the stream is not one of
   /// ours.
   std::size_t bytes_past_end() const { return past_end_; }
