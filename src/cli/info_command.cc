@@ -4,6 +4,8 @@
 
 #include "cli/json_output.h"
 #include "cli/text.h"
+#include "reprise/query/body_joints.h"
+#include "reprise/query/key_poses.h"
 
 namespace reprise::cli {
 namespace {
@@ -85,6 +87,51 @@ Json clips_array(const std::vector<ClipInfo>& clips) {
   return entries;
 }
 
+/// Which joint of the skeleton each joint of a body is; "" where there is none.
+std::vector<std::pair<std::string, std::string>> body_of(const Skeleton& skeleton,
+                                                         const JointMap& map) {
+  const BodyMatch match = match_body(skeleton, map);
+  std::vector<std::pair<std::string, std::string>> body;
+  for (std::size_t i = 0; i < body_joint_count; ++i) {
+    const int joint = match.joints[i];
+    body.emplace_back(body_joint_name(static_cast<BodyJoint>(i)),
+                      joint < 0 ? "" : skeleton.joints[static_cast<std::size_t>(joint)].name);
+  }
+  return body;
+}
+
+std::string body_text(const Skeleton& skeleton, const JointMap& map) {
+  Table table = facts();
+  for (const auto& [body_joint, joint] : body_of(skeleton, map)) {
+    table.add({body_joint, joint.empty() ? "-" : joint});
+  }
+  return (match_body(skeleton, map).is_body() ? "\nbody\n" : "\nno whole body\n") + table.text();
+}
+
+std::string key_poses_text(const Take& take, const JointMap& map) {
+  std::string text;
+  for (const KeyPose& pose : key_poses(take, map)) {
+    text += fmt::format("{}{:.2f}", text.empty() ? "" : ", ", pose.time);
+  }
+  Table table = facts();
+  table.add({"key poses", text + " s"});
+  return table.text();
+}
+
+Json key_poses_array(const Take& take, const JointMap& map) {
+  Json poses = Json::array();
+  for (const KeyPose& pose : key_poses(take, map)) {
+    poses.push_back({{"start", pose.start}, {"end", pose.end}, {"time", pose.time}});
+  }
+  return poses;
+}
+
+Json body_document(const Skeleton& skeleton, const JointMap& map) {
+  Json fields = Json::object();
+  for (const auto& [body_joint, joint] : body_of(skeleton, map)) fields[body_joint] = joint;
+  return fields;
+}
+
 Json take_document(const TakeInfo& take, const std::vector<ClipInfo>& clips) {
   Json fields = to_json(take);
   fields["description"] = take.description;
@@ -127,6 +174,8 @@ std::vector<ClipInfo> clips_of(const Archive& archive, const TakeInfo& take) {
 void InfoCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
   app.add_option("ID", id_, "A take or a clip; without it, the archive")->type_name("");
+  add_path(app, "--joint-map", joint_map_,
+           "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
   add_examples(app, {"reprise info lib.rpz", "reprise info lib.rpz walk_01"});
 }
 
@@ -146,8 +195,14 @@ ExitCode InfoCommand::run(Console& console) {
     console.document({{"clips", clips_array(clips)}});
   } else {
     const auto clips = clips_of(archive, selection.take);
-    console.result(take_text(selection.take, clips));
-    console.document(take_document(selection.take, clips));
+    const JointMap map = joint_map_.empty() ? JointMap{} : read_joint_map(joint_map_);
+    const Take take = archive.extract(selection.take);
+    console.result(take_text(selection.take, clips) + key_poses_text(take, map) +
+                   body_text(*take.skeleton, map));
+    Json document = take_document(selection.take, clips);
+    document["take"]["key_poses"] = key_poses_array(take, map);
+    document["take"]["body"] = body_document(*take.skeleton, map);
+    console.document(document);
   }
   return exit_done;
 }

@@ -17,6 +17,7 @@ class InfoCommand : public Command {
  private:
   std::filesystem::path archive_;
   std::string id_;
+  std::filesystem::path joint_map_;
 };
 
 }  // namespace reprise::cli

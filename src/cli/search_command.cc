@@ -1,0 +1,120 @@
+#include "cli/search_command.h"
+
+#include <iostream>
+#include <iterator>
+
+#include "cli/interruption.h"
+#include "cli/text.h"
+#include "reprise/error.h"
+
+namespace reprise::cli {
+namespace {
+
+constexpr double longest_time = 1e9;
+constexpr double furthest_mm = 1e9;
+constexpr std::uint64_t most_results = 1'000'000'000;
+
+/// A file, or stdin: a BVH, or an AMC where its ASF is given.
+Take read_example(const std::filesystem::path& path, const ReadOptions& options) {
+  if (path != "-") return read_motion_file(path, options);
+  const std::string text((std::istreambuf_iterator<char>(std::cin)),
+                         std::istreambuf_iterator<char>());
+  if (!options.asf) return read_bvh(text, "stdin", options.bvh_millimetres_per_unit);
+  const auto skeleton = std::make_shared<const Skeleton>(
+      read_asf(read_whole_file(*options.asf), options.asf->string()));
+  return read_amc(text, "stdin", skeleton, options.amc_frame_rate);
+}
+
+std::string results_table(const std::vector<SearchResult>& results, bool bold) {
+  using enum Table::Align;
+  Table table({{"TAKE", left},
+               {"SUBJECT", left},
+               {"START", right},
+               {"END", right},
+               {"DISTANCE MM", right}});
+  for (const SearchResult& result : results) {
+    table.add({result.take, result.subject, format_number(result.start, 2),
+               format_number(result.end, 2), format_number(result.distance_mm, 1)});
+  }
+  return table.text(bold);
+}
+
+Json document_of(const std::vector<SearchResult>& results) {
+  Json entries = Json::array();
+  for (const SearchResult& result : results) {
+    entries.push_back({{"take", result.take},
+                       {"subject", result.subject},
+                       {"start", result.start},
+                       {"end", result.end},
+                       {"distance_mm", result.distance_mm},
+                       {"unlikeness", result.unlikeness}});
+  }
+  return {{"results", entries}};
+}
+
+}  // namespace
+
+void SearchCommand::setup(CLI::App& app) {
+  add_archive(app, archive_);
+  add_path(app, "--like", like_, "The example: a BVH or AMC file, or - for a BVH on stdin");
+  app.add_option("--id", id_, "The example: a take or a clip of the archive")->type_name("ID");
+  add_number(app, "--from", options_.from, 0, longest_time,
+             "Only a part of the example: from this second on");
+  add_number(app, "--to", options_.to, 0, longest_time, "and up to this one");
+  add_whole_number(app, "--top", options_.top, 1, most_results, "How many results (default 20)");
+  add_number(app, "--limit-mm", options_.limit_mm, 0, furthest_mm,
+             "Leave out what is further away than this");
+  app.add_flag("--across-subjects", options_.across_subjects,
+               "Leave out takes of the example's subject");
+  app.add_flag("--all-occurrences", options_.all_occurrences,
+               "Every stretch of a take that fits, not only the best");
+  add_path(app, "--joint-map", joint_map_,
+           "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
+  app.add_flag("--cache", setup_.write_cache,
+               "Keep what was decoded in ARCHIVE.features, for the next search");
+  add_whole_number(app, "--jobs", setup_.jobs, 1, 1024, "Worker threads (default: all cores)");
+  add_read_options(app, read_);
+  add_examples(app, {"reprise search lib.rpz --id walk_01",
+                     "reprise search lib.rpz --id walk_01 --from 2 --to 4 --all-occurrences",
+                     "reprise search lib.rpz --like example.bvh --top 5 --json"});
+}
+
+void SearchCommand::check() {
+  if (like_.empty() == id_.empty()) {
+    throw Error(ErrorCode::usage, "search needs an example: --like FILE or --id ID");
+  }
+  if (options_.from && options_.to && *options_.from >= *options_.to) {
+    throw Error(ErrorCode::usage, "--from must be less than --to");
+  }
+  if (options_.across_subjects && id_.empty()) {
+    throw Error(ErrorCode::usage, "--across-subjects needs --id: a file has no subject");
+  }
+}
+
+ExitCode SearchCommand::run(Console& console) {
+  if (!joint_map_.empty()) setup_.joint_map = read_joint_map(joint_map_);
+  std::optional<Take> example;
+  if (!like_.empty()) example = read_example(like_, read_);
+  std::optional<Archive::Selection> selection;
+  {
+    const Archive archive(archive_);
+    if (!id_.empty()) selection = archive.find(id_);
+  }
+  if (selection && selection->clip) {
+    if (!options_.from) options_.from = selection->clip->start;
+    if (!options_.to) options_.to = selection->clip->end;
+  }
+  const InterruptionGuard guard;
+  std::optional<MotionSearch> search;
+  {
+    ProgressBar bar("search", console.progress_terminal());
+    search.emplace(archive_, setup_, progress_sink(bar));
+  }
+  const std::vector<SearchResult> results =
+      selection ? search->like(selection->take, options_) : search->like(*example, options_);
+  console.result(results_table(results, console.bold_results()));
+  console.document(document_of(results));
+  return exit_done;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,191 @@
+#include "query/likeness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "query/time_warp.h"
+
+namespace reprise {
+namespace {
+
+using K = LikenessConstants;
+using PostureRow = Eigen::Matrix<float, 1, posture_size>;
+
+constexpr int direction_size = plan_bones * 3;
+
+/// Directions and speeds of a track at a time between two frames.
+void interpolate(const PostureTrack& track, double seconds, float* directions, float* speeds) {
+  const double place =
+      std::clamp(seconds * PostureConstants::rate, 0.0, static_cast<double>(track.frames() - 1));
+  const long frame = std::min(static_cast<long>(place), std::max(0L, track.frames() - 2));
+  const long next = std::min(frame + 1, track.frames() - 1);
+  const float part = static_cast<float>(place - static_cast<double>(frame));
+  const auto mix = [&](const auto* values, int size, float* out) {
+    const auto* a = values + frame * size;
+    const auto* b = values + next * size;
+    for (int i = 0; i < size; ++i) {
+      out[i] = static_cast<float>(a[i]) * (1.0f - part) + static_cast<float>(b[i]) * part;
+    }
+  };
+  mix(track.directions.data(), direction_size, directions);
+  mix(track.speeds.data(), root_speeds, speeds);
+}
+
+/// Path of each bone end over the stretch, mm, from frame to frame.
+BoneValues paths(const PostureMatrix& rows) {
+  BoneValues sum = BoneValues::Zero();
+  for (long f = 1; f < rows.rows(); ++f) {
+    for (int b = 0; b < plan_bones; ++b) {
+      sum[b] += (rows.row(f).segment<3>(3 * b) - rows.row(f - 1).segment<3>(3 * b)).norm();
+    }
+  }
+  return sum;
+}
+
+/// Standard deviation of the place of each bone end.
+BoneValues deviations(const PostureMatrix& rows) {
+  const PostureRow mean = rows.colwise().mean();
+  BoneValues squares = BoneValues::Zero();
+  for (long f = 0; f < rows.rows(); ++f) {
+    for (int b = 0; b < plan_bones; ++b) {
+      squares[b] += (rows.row(f) - mean).segment<3>(3 * b).squaredNorm();
+    }
+  }
+  return (squares / static_cast<float>(rows.rows())).sqrt();
+}
+
+/// Weight of each bone end by how much it moves; their mean is 1.
+BoneValues activity_weights(const BoneValues& activity) {
+  const BoneValues weights = activity.pow(K::activity_power);
+  const float mean = weights.mean();
+  return mean > 0 ? BoneValues(weights / mean) : BoneValues::Ones();
+}
+
+const float per_bone = std::sqrt(1.0f / static_cast<float>(plan_bones));
+
+}  // namespace
+
+PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int count,
+                       float bearing) {
+  PostureMatrix rows(count, posture_size);
+  std::array<float, direction_size> directions{}, ends{};
+  std::array<float, root_speeds> speeds{};
+  for (int i = 0; i < count; ++i) {
+    const double part = count > 1 ? static_cast<double>(i) / (count - 1) : 0.5;
+    interpolate(track, stretch.begin + part * stretch.seconds(), directions.data(), speeds.data());
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      directions[k] = (directions[k] - bearing * static_cast<float>(track.median[k])) /
+                      PostureConstants::direction_unit;
+    }
+    bone_ends(track.plan, directions.data(), ends.data());
+    for (int k = 0; k < direction_size; ++k) {
+      rows(i, k) = ends[static_cast<std::size_t>(k)] * per_bone;
+    }
+    for (int k = 0; k < root_speeds; ++k) {
+      rows(i, direction_size + k) = K::speed_weight * speeds[static_cast<std::size_t>(k)];
+    }
+  }
+  return rows;
+}
+
+int samples_for(double seconds) {
+  return std::clamp(static_cast<int>(std::ceil(seconds / K::longest_step)), K::samples,
+                    K::most_samples);
+}
+
+MotionForm motion_form(const PostureTrack& track, const Stretch& stretch, int samples) {
+  MotionForm form;
+  form.rows = postures(track, stretch, samples, K::bearing_taken_out);
+  form.activity = deviations(form.rows) / per_bone;
+  const int frames =
+      std::max(2, static_cast<int>(std::lround(stretch.seconds() * PostureConstants::rate)) + 1);
+  const PostureMatrix all = postures(track, stretch, frames, 0.0f);
+  form.recurrence =
+      ((paths(all) / per_bone + K::rest_mm) / (deviations(all) / per_bone + K::rest_mm)).log();
+  for (int b = 0; b < plan_bones; ++b) {
+    form.lengths[b] = track.plan.lengths[static_cast<std::size_t>(b)];
+  }
+  form.seconds = std::max(stretch.seconds(), 1.0 / PostureConstants::rate);
+  return form;
+}
+
+double unlikeness(const MotionForm& a, const MotionForm& b) {
+  // What one of the bodies does not have is not compared.
+  const BoneValues shared = (a.lengths > 0 && b.lengths > 0).cast<float>();
+  const BoneValues weights =
+      shared * (activity_weights(a.activity) + activity_weights(b.activity)) / 2;
+  PostureRow scale = PostureRow::Ones();
+  for (int i = 0; i < plan_bones; ++i) scale.segment<3>(3 * i).setConstant(std::sqrt(weights[i]));
+  const CostMatrix scaled_a = a.rows.array().rowwise() * scale.array();
+  const CostMatrix scaled_b = b.rows.array().rowwise() * scale.array();
+  const double posture = warped_cost(row_distances(scaled_a, scaled_b));
+
+  const auto share = [&](const BoneValues& activity) -> BoneValues {
+    const float sum = (shared * activity).sum();
+    return sum > 0 ? BoneValues(shared * activity / sum) : BoneValues(shared / plan_bones);
+  };
+  const BoneValues shares = (share(a.activity) + share(b.activity)) / 2;
+  const double recurrence = double{(shares * (a.recurrence - b.recurrence).square()).sum()} *
+                            K::recurrence_weight * K::recurrence_weight;
+  const double duration = std::log(a.seconds / b.seconds) * K::duration_weight;
+  return std::sqrt(posture * posture + recurrence + duration * duration);
+}
+
+double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const PostureTrack& b,
+                           const Stretch& in_b) {
+  const int samples = samples_for(std::max(in_a.seconds(), in_b.seconds()));
+  const PostureMatrix rows_a = postures(a, in_a, samples, 0.0f);
+  const PostureMatrix rows_b = postures(b, in_b, samples, 0.0f);
+  std::vector<int> shared;
+  for (int i = 0; i < plan_bones; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (a.plan.lengths[at] > 0 && b.plan.lengths[at] > 0) shared.push_back(i);
+  }
+  if (shared.empty()) return 0;
+  double sum = 0;
+  const auto path = warping_path(
+      row_distances(rows_a.leftCols<direction_size>(), rows_b.leftCols<direction_size>()));
+  for (const auto& [i, j] : path) {
+    for (const int k : shared) {
+      sum += (rows_a.row(i).segment<3>(3 * k) - rows_b.row(j).segment<3>(3 * k)).norm();
+    }
+  }
+  return sum / (per_bone * static_cast<double>(shared.size() * path.size()));
+}
+
+RowRange best_fit(const PostureMatrix& query, const PostureMatrix& target) {
+  const CostMatrix costs = row_distances(query, target);
+  const long rows = costs.rows(), columns = costs.cols();
+  // Steps (1,1), (1,2) and (2,1): half to twice the speed. Every row of the query counts once.
+  struct Fit {
+    float cost;
+    long begin;
+  };
+  constexpr float never = 1e30f;
+  std::vector<Fit> fits(static_cast<std::size_t>(rows * columns), {never, 0});
+  const auto at = [&](long i, long j) -> Fit& {
+    return fits[static_cast<std::size_t>(i * columns + j)];
+  };
+  for (long j = 0; j < columns; ++j) at(0, j) = {costs(0, j), j};
+  for (long i = 1; i < rows; ++i) {
+    for (long j = 1; j < columns; ++j) {
+      Fit best = at(i - 1, j - 1);
+      if (j > 1 && at(i - 1, j - 2).cost < best.cost) best = at(i - 1, j - 2);
+      if (i > 1 && at(i - 2, j - 1).cost + costs(i - 1, j) < best.cost) {
+        best = {at(i - 2, j - 1).cost + costs(i - 1, j), at(i - 2, j - 1).begin};
+      }
+      if (best.cost < never) at(i, j) = {best.cost + costs(i, j), best.begin};
+    }
+  }
+  RowRange range{0, columns};
+  float least = never;
+  for (long j = 0; j < columns; ++j) {
+    if (at(rows - 1, j).cost < least) {
+      least = at(rows - 1, j).cost;
+      range = {at(rows - 1, j).begin, j + 1};
+    }
+  }
+  return range;
+}
+
+}  // namespace reprise

@@ -1,0 +1,78 @@
+// How alike two stretches of motion are.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "query/posture_track.h"
+
+namespace reprise {
+
+/// Weights of the comparison, found on 789 labelled takes that the published figures do not use
+/// (docs/findings/2026-11-25-search.md).
+struct LikenessConstants {
+  /// A stretch is compared at this many times; a long one at more of them, so that its samples are
+  /// at most `longest_step` seconds apart, up to `most_samples`.
+  static constexpr int samples = 32;
+  static constexpr int most_samples = 128;
+  static constexpr double longest_step = 0.4;
+  /// Part of a take's median posture that is taken out: bearing is style, not content.
+  static constexpr float bearing_taken_out = 0.85f;
+  /// mm that a difference of 1 mm/s (or mrad/s) over the ground counts.
+  static constexpr float speed_weight = 0.2f;
+  /// A bone end counts by this power of how much it moves.
+  static constexpr float activity_power = 0.5f;
+  /// mm that a factor e between how often two motions go their own range back and forth counts.
+  static constexpr float recurrence_weight = 90.0f;
+  /// mm that a factor e between two durations counts.
+  static constexpr float duration_weight = 30.0f;
+  /// mm added to a path and to a range before they are compared, so that rest is not noise.
+  static constexpr float rest_mm = 30.0f;
+};
+
+constexpr int posture_size = plan_bones * 3 + root_speeds;
+using PostureMatrix = Eigen::Matrix<float, Eigen::Dynamic, posture_size, Eigen::RowMajor>;
+using BoneValues = Eigen::Array<float, plan_bones, 1>;
+
+/// A stretch of a track, in seconds from its first frame.
+struct Stretch {
+  double begin = 0;
+  double end = 0;
+  double seconds() const { return end - begin; }
+};
+
+/// The postures of a track at `count` times spread evenly over the stretch: places of bone ends
+/// over the square root of their number, so that a distance of rows is a root mean square in mm,
+/// and weighted speeds. `bearing` is how much of the median posture is taken out.
+PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int count, float bearing);
+
+/// What is compared of a stretch.
+struct MotionForm {
+  PostureMatrix rows;     ///< bearing taken out
+  BoneValues activity;    ///< how much a bone end moves: standard deviation, mm
+  BoneValues recurrence;  ///< log of its path over its range
+  BoneValues lengths;     ///< of the plan
+  double seconds = 0;
+};
+int samples_for(double seconds);
+MotionForm motion_form(const PostureTrack& track, const Stretch& stretch, int samples);
+
+/// Both with the same number of samples. The root of the sum of squares (mm) of: the mean distance
+/// of postures along the cheapest path of a dynamic time warp, the difference in how often the
+/// bones' ends go back and forth, and in duration.
+double unlikeness(const MotionForm& a, const MotionForm& b);
+
+/// Mean distance (mm) of the bones' ends along the best time alignment, heading and place taken
+/// out; bearing and weights do not enter.
+double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const PostureTrack& b,
+                           const Stretch& in_b);
+
+/// Where in `target` the rows of `query` fit best, at half to twice the speed: row indices, half
+/// open. Without a fit (fewer rows than half the query's) all of the target.
+struct RowRange {
+  long begin = 0;
+  long end = 0;
+};
+RowRange best_fit(const PostureMatrix& query, const PostureMatrix& target);
+
+}  // namespace reprise

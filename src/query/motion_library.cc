@@ -1,0 +1,129 @@
+#include "query/motion_library.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "reprise/error.h"
+#include "store/digest.h"
+
+namespace reprise {
+namespace {
+
+/// How often a reading is begun again because a writer took takes out meanwhile.
+constexpr int most_attempts = 10;
+
+Digest key_of(const TakeInfo& take, const JointMap& map) {
+  Hasher hasher;
+  hasher.add_text(take.name);
+  hasher.add_text(take.source_digest);
+  hasher.add_real(take.frame_rate);
+  hasher.add_number(static_cast<int>(take.fidelity.tier));
+  hasher.add_real(take.fidelity.limit_mm);
+  for (const auto& [joint, name] : map) {
+    hasher.add_number(static_cast<int>(joint));
+    hasher.add_text(name);
+  }
+  return hasher.finish();
+}
+
+bool by_key(const LibraryTake& a, const LibraryTake& b) { return a.key < b.key; }
+
+/// Decodes takes on several threads, each with the archive opened for itself.
+class Decoding {
+ public:
+  Decoding(const std::filesystem::path& archive, const JointMap& map,
+           const std::vector<TakeInfo>& infos, std::vector<LibraryTake>& takes,
+           std::vector<std::size_t> missing)
+      : archive_(archive), map_(map), infos_(infos), takes_(takes), missing_(std::move(missing)) {}
+
+  void run(unsigned jobs, const ProgressSink& progress) {
+    if (jobs == 0) jobs = std::max(1u, std::thread::hardware_concurrency());
+    {
+      std::vector<std::jthread> threads;
+      for (unsigned t = 1; t < std::min<std::size_t>(jobs, missing_.size()); ++t) {
+        threads.emplace_back([this] { work({}); });
+      }
+      work(progress);
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void work(const ProgressSink& progress) {
+    try {
+      const Archive archive(archive_);
+      for (std::size_t i; !stopped_ && (i = next_++) < missing_.size();) {
+        const TakeInfo& info = infos_[missing_[i]];
+        takes_[missing_[i]].track = posture_track(archive.extract(info), map_);
+        if (progress && !progress({i + 1, missing_.size(), info.name})) {
+          throw Error(ErrorCode::interrupted, "interrupted");
+        }
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stopped_ = true;
+    }
+  }
+
+  const std::filesystem::path& archive_;
+  const JointMap& map_;
+  const std::vector<TakeInfo>& infos_;
+  std::vector<LibraryTake>& takes_;
+  std::vector<std::size_t> missing_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+};
+
+Digest content_digest(const std::filesystem::path& archive) {
+  return ArchiveStore::open_for_reading(archive).content_digest();
+}
+
+}  // namespace
+
+std::vector<LibraryTake> read_library(const std::filesystem::path& archive,
+                                      const SearchSetup& setup, std::vector<LibraryTake> cached,
+                                      const ProgressSink& progress) {
+  for (int attempt = 1;; ++attempt) {
+    const Digest content = content_digest(archive);
+    const std::vector<TakeInfo> infos = Archive(archive).takes();
+    std::vector<LibraryTake> takes(infos.size());
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      takes[i].name = infos[i].name;
+      takes[i].subject = infos[i].subject;
+      takes[i].key = key_of(infos[i], setup.joint_map);
+      const auto known = std::lower_bound(cached.begin(), cached.end(), takes[i], by_key);
+      if (known != cached.end() && known->key == takes[i].key) {
+        takes[i].track = known->track;
+      } else {
+        missing.push_back(i);
+      }
+    }
+    const auto keep_what_is_known = [&] {
+      for (const std::size_t i : missing) {
+        if (takes[i].track.frames() > 0) cached.push_back(takes[i]);
+      }
+      std::sort(cached.begin(), cached.end(), by_key);
+    };
+    try {
+      Decoding(archive, setup.joint_map, infos, takes, missing).run(setup.jobs, progress);
+    } catch (const Error& error) {
+      // A take that went away is no damage.
+      const bool interrupted = error.code() == ErrorCode::interrupted;
+      if (interrupted || attempt == most_attempts || content_digest(archive) == content) throw;
+      keep_what_is_known();
+      continue;
+    }
+    // Rows of takes are never changed in place, but a number may be given again after a removal.
+    if (attempt == most_attempts || content_digest(archive) == content) return takes;
+    keep_what_is_known();
+  }
+}
+
+}  // namespace reprise

@@ -1,0 +1,87 @@
+// reprise search, and what info says of bodies.
+#include "cli/command_runner.h"
+
+namespace reprise::cli {
+namespace {
+
+using nlohmann::json;
+
+class SearchTest : public CommandTest {
+ protected:
+  SearchTest() { make_library(); }
+};
+
+TEST_F(SearchTest, ResultsHaveThePromisedFields) {
+  const std::string take = take_names()[0];
+  const json results = document({"search", "lib.rpz", "--id", take}).at("results");
+  ASSERT_EQ(results.size(), take_names().size() - 1);
+  for (const json& result : results) {
+    EXPECT_TRUE(result.at("take").is_string());
+    EXPECT_NE(result.at("take"), take);
+    EXPECT_TRUE(result.at("subject").is_string());
+    for (const char* field : {"start", "end", "distance_mm", "unlikeness"}) {
+      EXPECT_TRUE(result.at(field).is_number()) << field;
+    }
+    EXPECT_LT(result.at("start"), result.at("end"));
+  }
+}
+
+TEST_F(SearchTest, AFileFindsItsTake) {
+  const std::string take = take_names()[1];
+  const std::string file = "takes/" + take + ".bvh";
+  const json found = document({"search", "lib.rpz", "--like", file, "--top", "1"});
+  ASSERT_EQ(found.at("results").size(), 1u);
+  EXPECT_EQ(found.at("results")[0].at("take"), take);
+  Surroundings piped;
+  piped.input = folder() / file;
+  const Outcome outcome =
+      reprise({"search", "lib.rpz", "--like", "-", "--top", "1", "--json"}, piped);
+  EXPECT_EQ(json::parse(outcome.out), found);
+}
+
+TEST_F(SearchTest, AClipIsAPartOfItsTake) {
+  const json clips = document({"list", "lib.rpz", "--clips"}).at("clips");
+  ASSERT_FALSE(clips.empty());
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", clips[0].at("id")}).exit_code, 0);
+}
+
+TEST_F(SearchTest, WithoutTheCacheNothingIsWritten) {
+  const std::string take = take_names()[0];
+  const auto before = files_below(folder());
+  const std::string results = output({"search", "lib.rpz", "--id", take});
+  EXPECT_EQ(files_below(folder()).size(), before.size());
+  EXPECT_EQ(output({"search", "lib.rpz", "--id", take, "--cache"}), results);
+  EXPECT_EQ(files_below(folder()).count("lib.rpz.features"), 1u);
+  EXPECT_EQ(output({"search", "lib.rpz", "--id", take}), results);
+}
+
+TEST_F(SearchTest, ErrorsHaveTheirCodes) {
+  const std::string take = take_names()[0];
+  const std::string file = "takes/" + take + ".bvh";
+  EXPECT_EQ(reprise({"search", "lib.rpz"}).exit_code, 2);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", take, "--like", file}).exit_code, 2);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--like", file, "--across-subjects"}).exit_code, 2);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", take, "--from", "2", "--to", "1"}).exit_code, 2);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", take, "--to", "9999"}).exit_code, 2);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", "no-such-take"}).exit_code, 7);
+  EXPECT_NE(reprise({"search", "lib.rpz", "--like", "nothing.bvh"}).exit_code, 0);
+  EXPECT_EQ(reprise({"search", "nowhere.rpz", "--id", take}).exit_code, 1);
+}
+
+TEST_F(SearchTest, InfoShowsTheBodyAndAMapCorrectsIt) {
+  const std::string take = take_names()[0];
+  const json info = document({"info", "lib.rpz", take}).at("take");
+  EXPECT_EQ(info.at("body").at("knee_left"), "LeftLeg");
+  EXPECT_EQ(info.at("body").size(), 17u);
+  EXPECT_EQ(info.at("key_poses").size(), 8u);
+  write_file(folder() / "map.txt", "knee_left = RightFoot\nhead =\n");
+  const json corrected =
+      document({"info", "lib.rpz", take, "--joint-map", "map.txt"}).at("take").at("body");
+  EXPECT_EQ(corrected.at("knee_left"), "RightFoot");
+  EXPECT_EQ(corrected.at("head"), "");
+  write_file(folder() / "map.txt", "tail = Tail\n");
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", take, "--joint-map", "map.txt"}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace reprise::cli
