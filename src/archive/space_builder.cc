@@ -46,9 +46,12 @@ std::map<std::string, SpaceAssignment> SpaceBuilder::build(
     if (!by_structure.contains(structure)) order.push_back(structure);
     by_structure[structure].push_back(i);
   }
-  store_.begin();
-  for (const std::string& structure : order) build_for_skeleton(by_structure.at(structure));
-  store_.commit();
+  // Each skeleton on its own: a stopped ingest keeps those that are done.
+  for (const std::string& structure : order) {
+    store_.begin();
+    build_for_skeleton(by_structure.at(structure));
+    store_.commit();
+  }
   return std::move(assignments_);
 }
 

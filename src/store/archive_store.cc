@@ -1,8 +1,12 @@
 // Opening and closing an archive file.
 #include "store/archive_store.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
 
@@ -84,14 +88,56 @@ void check_identity(Database& database) {
   database.run("COMMIT");
 }
 
-void create_tables(Database& database) {
+/// An archive without takes.
+void create_archive(const fs::path& path) {
+  Database database(path, Database::Mode::write);
+  // The page layout must be set before the first transaction writes a page.
+  int reserved = page_checksum_bytes;
+  database.run("PRAGMA auto_vacuum=NONE; PRAGMA page_size=" + std::to_string(page_size));
+  sqlite3_file_control(database.handle(), "main", SQLITE_FCNTL_RESERVE_BYTES, &reserved);
   database.run("PRAGMA application_id=" + std::to_string(application_id) +
-               "; PRAGMA user_version=" + std::to_string(format_version) + ";");
+               "; PRAGMA user_version=" + std::to_string(format_version) + "; BEGIN");
   database.run(schema_text());
   Statement(database, "INSERT INTO meta(key, value) VALUES('content', ?)").bind(Digest{}).run();
   Statement(database, "INSERT INTO meta(key, value) VALUES('written_by', ?)")
       .bind(std::string_view("reprise " REPRISE_VERSION))
       .run();
+  database.run("COMMIT");
+}
+
+/// A file of its own beside an archive, which goes with this object.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& beside)
+      : path_(beside.string() + ".new-" + std::to_string(::getpid())) {
+    ::unlink(path_.c_str());
+    const int descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+      throw Error(errno == ENOSPC ? ErrorCode::limit : ErrorCode::failed,
+                  "the archive cannot be opened for writing", {beside.string()});
+    }
+    ::close(descriptor);
+  }
+  ~TemporaryFile() { ::unlink(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// Puts an archive without takes where no file is, whole from the first moment on: a writer that
+/// dies leaves an archive, not a part of one. False if there is a file already.
+bool create_if_missing(const fs::path& path) {
+  const bool there = fs::exists(path);
+  if (there && (!fs::is_regular_file(path) || fs::file_size(path) > 0)) return false;
+  const TemporaryFile whole(path);
+  create_archive(whole.path());
+  // Another writer may have come first; a link, where there are links, does not replace its file.
+  if (!there && ::link(whole.path().c_str(), path.c_str()) == 0) return true;
+  if (!there && errno == EEXIST) return false;
+  return ::rename(whole.path().c_str(), path.c_str()) == 0;
 }
 
 }  // namespace
@@ -111,7 +157,7 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
         {path.string()});
   }
   if (size == 0) {
-    throw_damaged(path, "the archive is empty; the ingest that was to fill it never got so far");
+    throw_damaged(path, "the archive is an empty file");
   }
   fs::path journal = path;
   journal += "-journal";
@@ -132,29 +178,22 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
 }
 
 ArchiveStore ArchiveStore::open_for_writing(const fs::path& path) {
+  const bool created = create_if_missing(path);
   auto impl = std::make_unique<Impl>();
-  impl->lock.emplace(path);
+  impl->lock.emplace(path, created);
   impl->database.emplace(path, Database::Mode::write);
   impl->writing = true;
   impl->database->run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL;");
-  Statement tables(*impl->database, "SELECT count(*) FROM sqlite_schema");
-  tables.step();
-  if (tables.integer() > 0 || fs::file_size(path) > 0) check_identity(*impl->database);
+  // A read first: it takes back what a writer that died had not finished.
+  Statement(*impl->database, "SELECT count(*) FROM sqlite_schema").step();
+  check_identity(*impl->database);
   return ArchiveStore(std::move(impl));
 }
 
 void ArchiveStore::begin() {
   if (impl_->broken) throw Error(ErrorCode::failed, "an earlier write to the archive failed");
-  const bool fresh = std::filesystem::file_size(impl_->database->path()) == 0;
-  if (fresh) {
-    // The page layout must be set before the first transaction writes a page.
-    int reserved = page_checksum_bytes;
-    impl_->database->run("PRAGMA auto_vacuum=NONE; PRAGMA page_size=" + std::to_string(page_size));
-    sqlite3_file_control(impl_->database->handle(), "main", SQLITE_FCNTL_RESERVE_BYTES, &reserved);
-  }
   impl_->database->run("BEGIN IMMEDIATE");
   impl_->in_transaction = true;
-  if (fresh) create_tables(*impl_->database);
 }
 
 void ArchiveStore::commit() {
@@ -169,6 +208,7 @@ void ArchiveStore::commit() {
     throw;
   }
   impl_->in_transaction = false;
+  impl_->lock->keep();
 }
 
 void ArchiveStore::roll_back() {

@@ -96,8 +96,8 @@ class ArchiveStore {
   /// Throws Error: failed (cannot be opened), damaged, newer_version. Never writes, but for rolling
   /// back a transaction that a dead writer left.
   static ArchiveStore open_for_reading(const std::filesystem::path& path);
-  /// Creates the file with the first commit if it is not there. Throws Error (locked) at once if
-  /// another process holds it for writing.
+  /// Where there is no file, one without takes is put there whole; it is taken away again if
+  /// nothing was committed. Throws Error (locked) at once if another process holds it for writing.
   static ArchiveStore open_for_writing(const std::filesystem::path& path);
   ~ArchiveStore();
   ArchiveStore(ArchiveStore&&) noexcept;
@@ -116,9 +116,6 @@ class ArchiveStore {
   void remove_take(
       std::int64_t id);  ///< with its clips; what nothing refers to any more goes with it
   void compact();        ///< outside a transaction
-
-  /// True before anything was ever stored; only the questions that say so may be asked then.
-  bool empty() const;
 
   // Reading. Every row that is returned has passed its digest; one that has not throws Error
   // (damaged).

@@ -46,7 +46,6 @@ constexpr const char* skeleton_columns =
 }  // namespace
 
 std::optional<SkeletonRecord> ArchiveStore::find_skeleton(const Digest& structure) const {
-  // There are no tables yet in an archive that is being begun.
   Statement row = impl_->prepare(std::string(skeleton_columns) + " WHERE structure=?");
   row.bind(structure);
   if (!row.step()) return std::nullopt;

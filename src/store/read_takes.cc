@@ -126,7 +126,6 @@ bool is_in_folder(const TakeInfo& info, const std::string& tail) {
 }  // namespace
 
 void ArchiveStore::for_each_take(const std::function<void(const TakeRecord&)>& visit) const {
-  if (empty()) return;
   SharedFactsById known;
   impl_->for_each_block([&](const TakeBlock& block) {
     for (const StoredTake& stored : block.takes)
@@ -136,7 +135,6 @@ void ArchiveStore::for_each_take(const std::function<void(const TakeRecord&)>& v
 
 std::vector<TakeRecord> ArchiveStore::takes_named(const std::string& tail, bool whole) const {
   std::vector<TakeRecord> records;
-  if (empty()) return records;
   const std::int64_t key = key_of_name(whole ? tail : split_name(tail).second);
   SharedFactsById known;
   for (const std::int64_t id : impl_->takes_with_keys(key, key)) {

@@ -15,10 +15,6 @@ std::int64_t number(const Database& database, const std::string& sql) {
 
 }  // namespace
 
-bool ArchiveStore::empty() const {
-  return !impl_->prepare("SELECT 1 FROM sqlite_schema LIMIT 1").step();
-}
-
 std::vector<SkeletonInfo> ArchiveStore::skeletons() const {
   std::map<std::int64_t, std::size_t> takes;
   for_each_take([&](const TakeRecord& take) { ++takes[take.info.skeleton]; });

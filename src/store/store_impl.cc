@@ -11,8 +11,8 @@
 
 namespace reprise {
 
-WriterLock::WriterLock(const std::filesystem::path& path)
-    : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+WriterLock::WriterLock(const std::filesystem::path& path, bool created)
+    : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CLOEXEC)), created_(created) {
   if (descriptor_ < 0) {
     throw Error(errno == ENOSPC ? ErrorCode::limit : ErrorCode::failed,
                 "the archive cannot be opened for writing", {path.string()});
@@ -25,10 +25,8 @@ WriterLock::WriterLock(const std::filesystem::path& path)
 }
 
 WriterLock::~WriterLock() {
-  // An archive that nothing was ever stored in is no archive.
   std::error_code error;
-  if (std::filesystem::file_size(path_, error) == 0 && !error)
-    std::filesystem::remove(path_, error);
+  if (created_) std::filesystem::remove(path_, error);
   ::close(descriptor_);
 }
 

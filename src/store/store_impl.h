@@ -21,15 +21,18 @@ namespace reprise {
 /// closing any descriptor of a file drops the POSIX locks on it.
 class WriterLock {
  public:
-  /// Makes the file if it is not there. Throws Error (locked, failed).
-  explicit WriterLock(const std::filesystem::path& path);
+  /// Throws Error (locked, failed). Where this process has `created` the file, it goes with the
+  /// lock unless keep() was called: an archive that nothing was stored in is no archive.
+  WriterLock(const std::filesystem::path& path, bool created);
   ~WriterLock();
   WriterLock(const WriterLock&) = delete;
   WriterLock& operator=(const WriterLock&) = delete;
+  void keep() { created_ = false; }
 
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
+  bool created_ = false;
 };
 
 struct ArchiveStore::Impl {

@@ -33,16 +33,13 @@ TEST_F(Crash, KilledWritersLeaveWholeBatches) {
     usleep(static_cast<useconds_t>(3000 + 20000 * run));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // Before the first commit there is no file, or an empty one.
-    if (!fs::exists(path_) || fs::file_size(path_) == 0) continue;
-    try {
+    // There is no file yet, or a whole archive.
+    if (!fs::exists(path_)) continue;
+    {
       const ArchiveStore store = ArchiveStore::open_for_reading(path_);
       EXPECT_EQ(store.takes({}).size() % 2, 0u);
       EXPECT_TRUE(store.check_structure().empty());
       stored += store.takes({}).size();
-    } catch (const Error& error) {
-      // The first transaction was being written: rolled back, the file is empty.
-      EXPECT_EQ(fs::file_size(path_), 0u) << error.what();
     }
     // Whatever was left, writing goes on from there.
     ArchiveStore store = ArchiveStore::open_for_writing(path_);
