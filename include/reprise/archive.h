@@ -191,6 +191,30 @@ struct FrameRange {
   long end = 0;
 };
 
+/// One place where a motion occurs.
+struct MotionOccurrence {
+  ClipId clip;  ///< the stored clip that holds the most of it
+  std::string take;
+  std::string subject;
+  double start = 0;  ///< seconds
+  double end = 0;
+  double distance_mm = 0;  ///< mean joint distance to the group's first occurrence, along the best
+                           ///< time alignment, with heading and ground place taken out
+};
+
+/// Places that repeat one motion: first the one that the others are held against.
+struct RecurringMotion {
+  std::string id;  ///< 16 hexadecimal digits; the same for the same reference
+  std::vector<MotionOccurrence> occurrences;
+};
+
+struct RepeatQuery {
+  std::optional<TakeInfo> take;      ///< only groups with an occurrence in this take
+  std::optional<FrameRange> frames;  ///< only the repeats of these frames of `take`
+  bool across_subjects = false;      ///< only groups with two subjects or more
+  double least_seconds = 0;          ///< only occurrences at least this long
+};
+
 /// An archive opened for reading; it never writes. Throws Error: damaged, newer_version, failed.
 class Archive {
  public:
@@ -228,6 +252,12 @@ class Archive {
   /// The source file's bytes, of a take that is stored as `exact` (usage otherwise). An AMC's ASF
   /// is its skeleton's source_text.
   std::string source_text(const TakeInfo& take) const;
+
+  /// Where motion recurs, across the takes of each skeleton: groups of two occurrences or more,
+  /// those that explain most first. Throws Error (damaged; usage where `frames` are not in the take
+  /// or too few to be a motion).
+  std::vector<RecurringMotion> repeats(const RepeatQuery& query = {},
+                                       const ProgressSink& progress = {}) const;
 
   /// Reads and decodes everything; with `against`, measures each take against its source in that
   /// folder and holds it to its fidelity.

@@ -7,6 +7,7 @@
 #include "cli/ingest_command.h"
 #include "cli/list_command.h"
 #include "cli/remove_command.h"
+#include "cli/repeats_command.h"
 #include "cli/stats_command.h"
 #include "cli/synth_command.h"
 #include "cli/verify_command.h"
@@ -19,6 +20,7 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   commands.push_back(std::make_unique<ListCommand>());
   commands.push_back(std::make_unique<InfoCommand>());
   commands.push_back(std::make_unique<ExtractCommand>());
+  commands.push_back(std::make_unique<RepeatsCommand>());
   commands.push_back(std::make_unique<StatsCommand>());
   commands.push_back(std::make_unique<CompareCommand>());
   commands.push_back(std::make_unique<VerifyCommand>());

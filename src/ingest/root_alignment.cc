@@ -16,14 +16,6 @@ namespace {
 
 Matrix3d about_vertical(double radians) { return axis_rotation(1, radians); }
 
-/// Turns the root joint's upward axis to Y, so that an upright body is upright whatever its axes
-/// are.
-Matrix3d home_orientation(int up_axis) {
-  const Vector3d up =
-      up_axis < 3 ? Vector3d::Unit(up_axis) : Vector3d(-Vector3d::Unit(up_axis - 3));
-  return Quaterniond::FromTwoVectors(up, Vector3d::UnitY()).toRotationMatrix();
-}
-
 /// World frame of the joint above the root joint, of one frame of channels.
 JointFrame frame_above(const Skeleton& skeleton, int root_joint, std::span<const double> channels) {
   const int above = skeleton.joints[root_joint].parent;
@@ -34,6 +26,12 @@ JointFrame frame_above(const Skeleton& skeleton, int root_joint, std::span<const
 }
 
 }  // namespace
+
+Matrix3d home_orientation(int up_axis) {
+  const Vector3d up =
+      up_axis < 3 ? Vector3d::Unit(up_axis) : Vector3d(-Vector3d::Unit(up_axis - 3));
+  return Quaterniond::FromTwoVectors(up, Vector3d::UnitY()).toRotationMatrix();
+}
 
 double heading_of(const Matrix3d& rotation) {
   // Twist about Y of the unit quaternion (x, y, z, w): 2 atan2(y, w).

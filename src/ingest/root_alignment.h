@@ -26,6 +26,10 @@ struct RootTrack {
       orientation;  ///< frames x (x, y, z, w), signs continuous; if it tumbles
 };
 
+/// Turns the root joint's upward axis (LayoutChoices) to Y, so that an upright body is upright
+/// whatever its axes are.
+Eigen::Matrix3d home_orientation(int up_axis);
+
 /// Rotation about the vertical (Y) that is in `rotation`: the twist of its swing-twist
 /// decomposition.
 double heading_of(const Eigen::Matrix3d& rotation);

@@ -1,0 +1,32 @@
+// Candidates for repeated motion from an index over short windows, so that a library needs no
+// self-distance plot of all of its frames.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rma/repeat_groups.h"
+
+namespace reprise {
+
+struct NearWindowConstants {
+  /// Length of a window at its take's own speed (s), and from one to the next (s).
+  double window_s = 0.5;
+  double hop_s = 0.2;
+  /// Postures that stand for a window.
+  int postures = 5;
+  /// Numbers of a window that are kept, on principal axes of all windows.
+  int dimensions = 12;
+  /// A window looks for this many others of each speed.
+  std::size_t neighbours = 24;
+  /// and no further than this: root mean square joint distance, mm.
+  double most_mm = 70;
+};
+
+/// Pairs of places whose windows are alike at some speed from 1/2 to 2, nearest first. A window is
+/// not paired with one that overlaps it. With `only_take` just the pairs that its windows find.
+std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const RepeatConstants& repeats,
+                                      std::optional<std::size_t> only_take = std::nullopt,
+                                      const NearWindowConstants& constants = {});
+
+}  // namespace reprise

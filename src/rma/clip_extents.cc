@@ -1,0 +1,120 @@
+#include "rma/clip_extents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "rma/similar_posture_paths.h"
+
+namespace reprise {
+namespace {
+
+/// Extents that share this much of what they cover are one.
+constexpr double same_extent = 0.8;
+/// A pixel this near (samples) to a path lies on it.
+constexpr long near_path = 2;
+
+bool lies_on(const SimilarPath& path, const NearPair& pair) {
+  const auto at = std::lower_bound(path.pixels.begin(), path.pixels.end(), pair.sample,
+                                   [](const PlotPixel& p, long x) { return p.x < x; });
+  return at != path.pixels.end() && at->x - pair.sample <= near_path &&
+         std::labs(at->y - pair.other_sample) <= near_path;
+}
+
+/// Extents of one take, each a running mean of those that are nearly the same.
+class ExtentSet {
+ public:
+  void add(long begin, long end, double support) {
+    Mean* best = nullptr;
+    double best_overlap = same_extent;
+    for (Mean& mean : means_) {
+      const double overlap =
+          overlap_ratio(begin, end, std::lround(mean.begin), std::lround(mean.end));
+      if (overlap >= best_overlap) {
+        best_overlap = overlap;
+        best = &mean;
+      }
+    }
+    if (best == nullptr) {
+      means_.push_back({static_cast<double>(begin), static_cast<double>(end), 1, support});
+      return;
+    }
+    best->count += 1;
+    best->begin += (static_cast<double>(begin) - best->begin) / best->count;
+    best->end += (static_cast<double>(end) - best->end) / best->count;
+    best->support += support;
+  }
+
+  void list(std::size_t take, std::vector<ClipExtent>& extents) const {
+    for (const Mean& mean : means_) {
+      extents.push_back({take, std::lround(mean.begin), std::lround(mean.end), mean.support});
+    }
+  }
+
+ private:
+  struct Mean {
+    double begin = 0, end = 0, count = 0, support = 0;
+  };
+  std::vector<Mean> means_;
+};
+
+/// A path within one take may cover more than the lag between its sides; one period is enough.
+void part_sides(long& begin, long& end, long& other_begin, long& other_end) {
+  if (begin > other_begin) {
+    std::swap(begin, other_begin);
+    std::swap(end, other_end);
+  }
+  if (end <= other_begin) return;
+  const long lag = other_begin - begin;
+  end = begin + lag;
+  other_end = std::min(other_end, other_begin + lag);
+}
+
+}  // namespace
+
+double overlap_ratio(long begin_a, long end_a, long begin_b, long end_b) {
+  const long common = std::min(end_a, end_b) - std::max(begin_a, begin_b);
+  if (common <= 0) return 0;
+  return static_cast<double>(common) /
+         static_cast<double>(std::max(end_a, end_b) - std::min(begin_a, begin_b));
+}
+
+std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
+                                          std::span<const NearPair> near_pairs,
+                                          const RepeatConstants& constants) {
+  const long least_clip = std::lround(constants.least_clip_s * constants.rate);
+  const long least_path = std::lround(constants.least_path_s * constants.rate);
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<SimilarPath>> paths;
+  std::vector<ExtentSet> sets(library.takes());
+  for (const NearPair& pair : near_pairs) {
+    std::vector<SimilarPath>& known = paths[{pair.take, pair.other_take}];
+    if (std::ranges::any_of(known, [&](const SimilarPath& p) { return lies_on(p, pair); }))
+      continue;
+    SimilarPath path =
+        trace_path(library.projected[pair.take], library.projected[pair.other_take],
+                   {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
+    if (path.pixels.empty()) continue;
+    if (path.manhattan_length() >= least_path) {
+      long begin = path.pixels.front().x, end = path.pixels.back().x + 1;
+      long other_begin = path.pixels.front().y, other_end = path.pixels.back().y + 1;
+      if (pair.take == pair.other_take) part_sides(begin, end, other_begin, other_end);
+      if (end - begin >= least_clip && other_end - other_begin >= least_clip) {
+        sets[pair.take].add(begin, end, static_cast<double>(other_end - other_begin));
+        sets[pair.other_take].add(other_begin, other_end, static_cast<double>(end - begin));
+      }
+    }
+    known.push_back(std::move(path));
+  }
+  std::vector<ClipExtent> extents;
+  for (std::size_t take = 0; take < sets.size(); ++take) sets[take].list(take, extents);
+  std::sort(extents.begin(), extents.end(), [](const ClipExtent& a, const ClipExtent& b) {
+    return std::tuple(-a.support, a.take, a.begin, a.end) <
+           std::tuple(-b.support, b.take, b.begin, b.end);
+  });
+  return extents;
+}
+
+}  // namespace reprise

@@ -1,0 +1,112 @@
+#include "rma/postures.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ingest/root_alignment.h"
+#include "reprise/model/kinematics.h"
+
+namespace reprise {
+namespace {
+
+/// The root joint and all below it: others do not go where it goes.
+std::vector<std::size_t> joints_under(const Skeleton& skeleton, int root) {
+  std::vector<bool> under(skeleton.joints.size(), false);
+  std::vector<std::size_t> list;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    under[j] =
+        static_cast<int>(j) == root || (parent >= 0 && under[static_cast<std::size_t>(parent)]);
+    if (under[j]) list.push_back(j);
+  }
+  return list;
+}
+
+/// Joint places of one frame, seen from the ground below the root joint.
+Eigen::RowVectorXf posture_of_frame(const Take& take, const RootAxis& root,
+                                    const Eigen::Matrix3d& from_home, long frame,
+                                    const std::vector<std::size_t>& moving,
+                                    std::vector<JointFrame>& joints) {
+  const Skeleton& skeleton = *take.skeleton;
+  forward_kinematics(
+      skeleton, {take.channels.row(frame).data(), static_cast<std::size_t>(skeleton.channel_count)},
+      joints);
+  const JointFrame& root_frame = joints[static_cast<std::size_t>(root.joint)];
+  const Eigen::Matrix3d unturned = axis_rotation(1, -heading_of(root_frame.rotation * from_home));
+  const Eigen::Vector3d ground(root_frame.position.x(), 0, root_frame.position.z());
+  Eigen::RowVectorXf posture(3 * static_cast<Eigen::Index>(moving.size()));
+  for (std::size_t j = 0; j < moving.size(); ++j) {
+    posture.segment<3>(3 * static_cast<Eigen::Index>(j)) =
+        (unturned * (joints[moving[j]].position - ground)).transpose().cast<float>();
+  }
+  return posture;
+}
+
+}  // namespace
+
+PostureMatrix aligned_postures(const Take& take, const RootAxis& root, double rate) {
+  constexpr double rounding = 1e-6;
+  const long frames = take.frames();
+  const std::vector<std::size_t> moving = joints_under(*take.skeleton, root.joint);
+  const auto coordinates = 3 * static_cast<Eigen::Index>(moving.size());
+  if (frames == 0) return PostureMatrix(0, coordinates);
+  const double step = take.frame_rate / rate;
+  const auto samples =
+      static_cast<Eigen::Index>(std::floor(static_cast<double>(frames - 1) / step + rounding)) + 1;
+  const Eigen::Matrix3d from_home = home_orientation(root.up_axis).transpose();
+  std::vector<JointFrame> joints(take.skeleton->joints.size());
+  PostureMatrix postures(samples, coordinates);
+  for (Eigen::Index s = 0; s < samples; ++s) {
+    const double at = std::min(static_cast<double>(s) * step, static_cast<double>(frames - 1));
+    const long frame = static_cast<long>(std::floor(at + rounding));
+    const auto part = static_cast<float>(at - static_cast<double>(frame));
+    postures.row(s) = posture_of_frame(take, root, from_home, frame, moving, joints);
+    if (part > rounding && frame + 1 < frames) {
+      postures.row(s) +=
+          part *
+          (posture_of_frame(take, root, from_home, frame + 1, moving, joints) - postures.row(s));
+    }
+  }
+  return postures;
+}
+
+PostureBasis::PostureBasis(std::span<const PostureMatrix> takes, int axes) {
+  Eigen::Index coordinates = 0, samples = 0;
+  for (const PostureMatrix& take : takes) {
+    coordinates = take.cols();
+    samples += take.rows();
+  }
+  if (samples == 0 || coordinates == 0) return;
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(coordinates);
+  for (const PostureMatrix& take : takes) sum += take.cast<double>().colwise().sum();
+  mean_ = (sum / static_cast<double>(samples)).cast<float>();
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(coordinates, coordinates);
+  for (const PostureMatrix& take : takes) {
+    const Eigen::MatrixXf centred = take.rowwise() - mean_;
+    products.noalias() += (centred.transpose() * centred).cast<double>();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(products);
+  const Eigen::Index kept = std::min<Eigen::Index>(axes, coordinates);
+  const double joints = static_cast<double>(coordinates) / 3;
+  axes_ =
+      (solver.eigenvectors().rightCols(kept).rowwise().reverse() / std::sqrt(joints)).cast<float>();
+}
+
+PostureMatrix PostureBasis::project(const PostureMatrix& postures) const {
+  if (postures.rows() == 0 || axes_.size() == 0)
+    return PostureMatrix(postures.rows(), axes_.cols());
+  return (postures.rowwise() - mean_) * axes_;
+}
+
+float mean_joint_distance(const float* a, const float* b, Eigen::Index coordinates) {
+  float sum = 0;
+  for (Eigen::Index c = 0; c < coordinates; c += 3) {
+    const float x = a[c] - b[c], y = a[c + 1] - b[c + 1], z = a[c + 2] - b[c + 2];
+    sum += std::sqrt(x * x + y * y + z * z);
+  }
+  return 3 * sum / static_cast<float>(coordinates);
+}
+
+}  // namespace reprise

@@ -1,0 +1,33 @@
+// Constants of the search for repeated motion.
+#pragma once
+
+namespace reprise {
+
+struct RepeatConstants {
+  /// Postures a second. Half of a capture at 30 frames a second; finer changes nothing (see
+  /// docs/findings/2026-11-25-repeated-motion.md, as for all that is called measured here).
+  double rate = 15;
+  /// Leading axes of the postures: lin-2011 section 4.1 has 5-15.
+  int axes = 16;
+
+  /// Pixels of the self-distance plot further than this are dissimilar (mm). Measured.
+  float similar_mm = 80;
+  /// A path goes on over dissimilar pixels for this long (s). lin-2011 section 4.2.1.
+  double bridge_s = 0.3;
+  /// The least Manhattan length of a path (s). lin-2011 section 4.2.1.
+  double least_path_s = 0.6;
+  /// The steepest and, inverted, the flattest slope of a path. lin-2011 keeps both without a limit;
+  /// it has to be more than 2, so that noise does not end the path of a clip at twice the speed.
+  static constexpr int steepest = 3;
+  /// A take is not compared with itself nearer to the diagonal than this (s).
+  double least_lag_s = 0.4;
+
+  /// A member's greatest mean joint distance to its group's reference (mm). Measured.
+  float member_mm = 60;
+  /// The shortest clip that is reported (s).
+  double least_clip_s = 0.5;
+  /// A clip whose joints move less than this on average (mm/s) is a stance, not a motion.
+  double least_speed_mm_s = 50;
+};
+
+}  // namespace reprise

@@ -1,0 +1,178 @@
+#include "rma/repeat_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "rma/clip_extents.h"
+
+namespace reprise {
+namespace {
+
+/// A clip that shares this much with a member of a group is explained by the group.
+constexpr double explained_overlap = 0.7;
+
+/// A stretch of a take that is to be looked at.
+struct Stretch {
+  std::size_t take = 0;
+  long begin = 0;
+  long end = 0;
+};
+
+class GroupFinder {
+ public:
+  GroupFinder(const PostureLibrary& library, std::span<const NearPair> near_pairs,
+              const RepeatConstants& constants)
+      : library_(library),
+        constants_(constants),
+        near_(library.takes()),
+        members_(library.takes()) {
+    for (const NearPair& pair : near_pairs) {
+      near_[pair.take].push_back(pair);
+      near_[pair.other_take].push_back(
+          {pair.other_take, pair.other_sample, pair.take, pair.sample});
+    }
+    for (auto& near : near_) std::sort(near.begin(), near.end());
+  }
+
+  std::vector<RepeatGroup> run(const std::vector<ClipExtent>& extents) {
+    std::vector<RepeatGroup> groups;
+    for (const ClipExtent& extent : extents) {
+      if (is_explained(extent)) continue;
+      RepeatGroup group = group_around({extent.take, extent.begin, extent.end, 0});
+      if (group.occurrences.size() < 2) continue;
+      for (const Occurrence& o : group.occurrences) members_[o.take].push_back({o.begin, o.end});
+      groups.push_back(std::move(group));
+    }
+    return groups;
+  }
+
+ private:
+  bool is_explained(const ClipExtent& extent) const {
+    return std::ranges::any_of(members_[extent.take], [&](const auto& member) {
+      return overlap_ratio(extent.begin, extent.end, member.first, member.second) >=
+             explained_overlap;
+    });
+  }
+
+  /// The group of a clip, and then that of its member of median length: it is within reach of the
+  /// fastest and of the slowest. The larger one is kept.
+  RepeatGroup group_around(const Occurrence& clip) const {
+    RepeatGroup group = members_of(clip);
+    if (group.occurrences.size() < 3) return group;
+    std::vector<Occurrence> by_length = group.occurrences;
+    const auto middle = by_length.begin() + static_cast<std::ptrdiff_t>(by_length.size() / 2);
+    std::nth_element(by_length.begin(), middle, by_length.end(),
+                     [](const Occurrence& a, const Occurrence& b) {
+                       return std::tuple(a.end - a.begin, a.take, a.begin) <
+                              std::tuple(b.end - b.begin, b.take, b.begin);
+                     });
+    RepeatGroup other = members_of({middle->take, middle->begin, middle->end, 0});
+    return other.occurrences.size() > group.occurrences.size() ? other : group;
+  }
+
+  RepeatGroup members_of(const Occurrence& clip) const;
+  std::vector<Stretch> stretches_near(const Occurrence& clip) const;
+
+  const PostureLibrary& library_;
+  const RepeatConstants& constants_;
+  std::vector<std::vector<NearPair>> near_;                  ///< by take, each pair from both sides
+  std::vector<std::vector<std::pair<long, long>>> members_;  ///< of all groups, by take
+};
+
+bool moves(const PostureView& clip, const RepeatConstants& constants) {
+  const long steps = clip.postures.rows() - 1;
+  double sum = 0;
+  for (long s = 0; s < steps; ++s) {
+    sum += mean_joint_distance(clip.postures.row(s).data(), clip.postures.row(s + 1).data(),
+                               clip.postures.cols());
+  }
+  return steps > 0 &&
+         sum / static_cast<double>(steps) * constants.rate >= constants.least_speed_mm_s;
+}
+
+/// Adds what is like the clip in a stretch and does not overlap it.
+void add_members(const PostureLibrary& library, const Occurrence& clip, const PostureView& view,
+                 const Stretch& stretch, const RepeatConstants& constants, RepeatGroup& group) {
+  const auto found =
+      align_clip(view, library.view(stretch.take, stretch.begin, stretch.end), constants.member_mm);
+  const long least = std::lround(constants.least_clip_s * constants.rate);
+  for (const AlignedClip& member : found) {
+    const long begin = stretch.begin + member.begin, end = stretch.begin + member.end;
+    if (end - begin < least) continue;
+    if (stretch.take == clip.take && begin < clip.end && clip.begin < end) continue;
+    group.occurrences.push_back({stretch.take, begin, end, member.mean_mm});
+  }
+}
+
+std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
+  std::map<std::size_t, std::vector<std::pair<long, long>>> reached;
+  const long length = clip.end - clip.begin;
+  const long reach = RepeatConstants::steepest * length;
+  const auto& near = near_[clip.take];
+  const auto first = std::ranges::lower_bound(near, clip.begin, {}, &NearPair::sample);
+  for (auto at = first; at != near.end() && at->sample < clip.end; ++at) {
+    const long rows = library_.postures[at->other_take].rows();
+    reached[at->other_take].emplace_back(std::max(0L, at->other_sample - reach),
+                                         std::min(rows, at->other_sample + reach));
+  }
+  std::vector<Stretch> stretches;
+  for (auto& [take, parts] : reached) {
+    std::sort(parts.begin(), parts.end());
+    stretches.push_back({take, parts.front().first, parts.front().second});
+    for (const auto& [begin, end] : parts) {
+      if (begin > stretches.back().end) stretches.push_back({take, begin, end});
+      stretches.back().end = std::max(stretches.back().end, end);
+    }
+  }
+  return stretches;
+}
+
+RepeatGroup GroupFinder::members_of(const Occurrence& clip) const {
+  RepeatGroup group{{clip}};
+  const PostureView view = library_.view(clip.take, clip.begin, clip.end);
+  if (!moves(view, constants_)) return group;
+  for (const Stretch& stretch : stretches_near(clip)) {
+    add_members(library_, clip, view, stretch, constants_, group);
+  }
+  return group;
+}
+
+}  // namespace
+
+PostureLibrary::PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants)
+    : postures(std::move(takes)) {
+  const PostureBasis basis(postures, constants.axes);
+  for (const PostureMatrix& take : postures) projected.push_back(basis.project(take));
+}
+
+PostureView PostureLibrary::view(std::size_t take, long begin, long end) const {
+  return {postures[take].middleRows(begin, end - begin),
+          projected[take].middleRows(begin, end - begin)};
+}
+
+std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
+                                            std::span<const NearPair> near_pairs,
+                                            std::optional<std::size_t> only_take,
+                                            const RepeatConstants& constants) {
+  std::vector<ClipExtent> extents = find_clip_extents(library, near_pairs, constants);
+  if (only_take) {
+    std::erase_if(extents, [&](const ClipExtent& extent) { return extent.take != *only_take; });
+  }
+  return GroupFinder(library, near_pairs, constants).run(extents);
+}
+
+RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& clip,
+                            const RepeatConstants& constants) {
+  RepeatGroup group{{clip}};
+  group.occurrences[0].distance_mm = 0;
+  const PostureView view = library.view(clip.take, clip.begin, clip.end);
+  for (std::size_t take = 0; take < library.takes(); ++take) {
+    add_members(library, clip, view, {take, 0, library.postures[take].rows()}, constants, group);
+  }
+  return group;
+}
+
+}  // namespace reprise

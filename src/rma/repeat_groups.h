@@ -1,0 +1,68 @@
+// Groups of clips that repeat one motion, over many takes: what a person asks for. Every member is
+// held against its group's reference, so that chains do not join what is not alike.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rma/clip_alignment.h"
+#include "rma/postures.h"
+#include "rma/repeat_constants.h"
+
+namespace reprise {
+
+/// Takes that share a skeleton: postures at RepeatConstants::rate, and the same projected.
+struct PostureLibrary {
+  std::vector<PostureMatrix> postures;
+  std::vector<PostureMatrix> projected;
+
+  PostureLibrary() = default;
+  PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants);
+
+  std::size_t takes() const { return postures.size(); }
+  PostureView view(std::size_t take, long begin, long end) const;
+};
+
+/// Two places around which the motion may be alike. Who finds them is open: a library's index over
+/// short windows, or every pixel of a small plot.
+struct NearPair {
+  std::uint32_t take = 0;
+  std::int32_t sample = 0;
+  std::uint32_t other_take = 0;
+  std::int32_t other_sample = 0;
+
+  friend auto operator<=>(const NearPair&, const NearPair&) = default;
+};
+
+/// Samples [begin, end) of a take; `distance_mm` is the mean joint distance to the group's
+/// reference.
+struct Occurrence {
+  std::size_t take = 0;
+  long begin = 0;
+  long end = 0;
+  float distance_mm = 0;
+};
+
+/// The reference first, at distance 0; then its repeats by take and time. No two overlap.
+struct RepeatGroup {
+  std::vector<Occurrence> occurrences;
+};
+
+/// Groups of at least two, those that explain most first. A clip may be in several groups: as a
+/// part of a longer motion that recurs, or a longer one around it. With `only_take` the references
+/// are clips of that take.
+std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
+                                            std::span<const NearPair> near_pairs,
+                                            std::optional<std::size_t> only_take,
+                                            const RepeatConstants& constants);
+
+/// The repeats of one clip, by looking at all of the library; with the clip alone where there are
+/// none.
+RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& clip,
+                            const RepeatConstants& constants);
+
+}  // namespace reprise

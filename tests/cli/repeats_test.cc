@@ -1,0 +1,108 @@
+// repeats: what it finds in a library whose repeats are known, and what it refuses.
+#include <algorithm>
+
+#include "cli/command_runner.h"
+
+namespace reprise::cli {
+namespace {
+
+using nlohmann::json;
+
+class RepeatsCommandTest : public CommandTest {
+ protected:
+  void SetUp() override {
+    output({"synth", "takes", "--takes", "8", "--seconds", "10", "--subjects", "2"});
+    output({"ingest", "lib.rpz", "takes", "--quiet"});
+  }
+
+  static std::string stem(const std::string& path) {
+    const std::string name = path.substr(path.rfind('/') + 1);
+    return name.substr(0, name.rfind('.'));
+  }
+
+  static bool is_at(const json& occurrence, const json& truth) {
+    if (stem(truth["file"]) != stem(occurrence["take"].get<std::string>() + ".x")) return false;
+    const double start = occurrence["start"], end = occurrence["end"];
+    const double true_start = truth["start_s"], true_end = truth["end_s"];
+    const double common = std::min(end, true_end) - std::max(start, true_start);
+    return common >= 0.5 * (std::max(end, true_end) - std::min(start, true_start));
+  }
+
+  static bool holds(const json& group, const json& truth) {
+    return std::ranges::any_of(group["occurrences"],
+                               [&](const json& o) { return is_at(o, truth); });
+  }
+};
+
+TEST_F(RepeatsCommandTest, FindsMostOfWhatTheSynthesiserRepeated) {
+  const json truth = json::parse(read_file(folder() / "takes" / "truth.json"));
+  const json groups = document({"repeats", "lib.rpz"})["groups"];
+  int pairs = 0, hits = 0;
+  for (const json& known : truth) {
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        ++pairs;
+        hits += std::ranges::any_of(
+            groups, [&](const json& g) { return holds(g, known[i]) && holds(g, known[k]); });
+      }
+    }
+  }
+  ASSERT_GT(pairs, 0);
+  EXPECT_GE(hits, 0.6 * pairs);
+}
+
+TEST_F(RepeatsCommandTest, OccurrencesHaveThePromisedFields) {
+  const json groups = document({"repeats", "lib.rpz"})["groups"];
+  ASSERT_FALSE(groups.empty());
+  for (const json& group : groups) {
+    EXPECT_TRUE(group["id"].is_string());
+    ASSERT_GE(group["occurrences"].size(), 2u);
+    EXPECT_EQ(group["occurrences"][0]["distance_mm"], 0.0);
+    for (const json& o : group["occurrences"]) {
+      EXPECT_EQ(o.size(), 6u);
+      EXPECT_TRUE(o["clip"].is_string() && o["take"].is_string() && o["subject"].is_string());
+      EXPECT_LT(o["start"].get<double>(), o["end"].get<double>());
+    }
+  }
+}
+
+TEST_F(RepeatsCommandTest, APartOfATakeIsTheFirstOfItsGroup) {
+  const std::string take = take_names()[0];
+  const json groups =
+      document({"repeats", "lib.rpz", take, "--from", "1", "--to", "2.5"})["groups"];
+  ASSERT_LE(groups.size(), 1u);
+  if (groups.empty()) return;
+  EXPECT_EQ(groups[0]["occurrences"][0]["take"], take);
+  EXPECT_NEAR(groups[0]["occurrences"][0]["start"].get<double>(), 1, 0.02);
+  EXPECT_NEAR(groups[0]["occurrences"][0]["end"].get<double>(), 2.5, 0.02);
+}
+
+TEST_F(RepeatsCommandTest, FiltersHold) {
+  const std::string take = take_names()[0];
+  for (const json& group : document({"repeats", "lib.rpz", take})["groups"]) {
+    EXPECT_TRUE(std::ranges::any_of(group["occurrences"],
+                                    [&](const json& o) { return o["take"] == take; }));
+  }
+  for (const json& group : document({"repeats", "lib.rpz", "--across-subjects"})["groups"]) {
+    EXPECT_TRUE(std::ranges::any_of(group["occurrences"], [&](const json& o) {
+      return o["subject"] != group["occurrences"][0]["subject"];
+    }));
+  }
+  for (const json& group : document({"repeats", "lib.rpz", "--min-seconds", "1.5"})["groups"]) {
+    for (const json& o : group["occurrences"]) {
+      EXPECT_GE(o["end"].get<double>() - o["start"].get<double>(), 1.5);
+    }
+  }
+}
+
+TEST_F(RepeatsCommandTest, RefusesWhatMakesNoSense) {
+  EXPECT_EQ(reprise({"repeats", "lib.rpz", "--from", "1"}).exit_code, 2);
+  const std::string take = take_names()[0];
+  EXPECT_EQ(reprise({"repeats", "lib.rpz", take, "--from", "2", "--to", "1"}).exit_code, 2);
+  EXPECT_EQ(reprise({"repeats", "lib.rpz", take, "--from", "1", "--to", "1.02"}).exit_code, 2);
+  EXPECT_EQ(reprise({"repeats", "lib.rpz", take, "--to", "1000"}).exit_code, 1);
+  EXPECT_EQ(reprise({"repeats", "lib.rpz", "no-such-take"}).exit_code, 7);
+}
+
+}  // namespace
+}  // namespace reprise::cli
