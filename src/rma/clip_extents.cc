@@ -7,8 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "rma/similar_posture_paths.h"
-
 namespace reprise {
 namespace {
 
@@ -82,31 +80,41 @@ double overlap_ratio(long begin_a, long end_a, long begin_b, long end_b) {
          static_cast<double>(std::max(end_a, end_b) - std::min(begin_a, begin_b));
 }
 
-std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
-                                          std::span<const NearPair> near_pairs,
-                                          const RepeatConstants& constants) {
-  const long least_clip = std::lround(constants.least_clip_s * constants.rate);
+std::vector<TracedPath> trace_paths(const PostureLibrary& library,
+                                    std::span<const NearPair> near_pairs,
+                                    const RepeatConstants& constants) {
   const long least_path = std::lround(constants.least_path_s * constants.rate);
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<SimilarPath>> paths;
-  std::vector<ExtentSet> sets(library.takes());
+  std::vector<TracedPath> traced;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> known;
   for (const NearPair& pair : near_pairs) {
-    std::vector<SimilarPath>& known = paths[{pair.take, pair.other_take}];
-    if (std::ranges::any_of(known, [&](const SimilarPath& p) { return lies_on(p, pair); }))
-      continue;
+    std::vector<std::size_t>& here = known[{pair.take, pair.other_take}];
+    const auto on_it = [&](std::size_t i) { return lies_on(traced[i].path, pair); };
+    if (std::ranges::any_of(here, on_it)) continue;
     SimilarPath path =
         trace_path(library.projected[pair.take], library.projected[pair.other_take],
                    {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
     if (path.pixels.empty()) continue;
-    if (path.manhattan_length() >= least_path) {
-      long begin = path.pixels.front().x, end = path.pixels.back().x + 1;
-      long other_begin = path.pixels.front().y, other_end = path.pixels.back().y + 1;
-      if (pair.take == pair.other_take) part_sides(begin, end, other_begin, other_end);
-      if (end - begin >= least_clip && other_end - other_begin >= least_clip) {
-        sets[pair.take].add(begin, end, static_cast<double>(other_end - other_begin));
-        sets[pair.other_take].add(other_begin, other_end, static_cast<double>(end - begin));
-      }
-    }
-    known.push_back(std::move(path));
+    here.push_back(traced.size());
+    traced.push_back({pair.take, pair.other_take, std::move(path)});
+  }
+  std::erase_if(traced,
+                [&](const TracedPath& t) { return t.path.manhattan_length() < least_path; });
+  return traced;
+}
+
+std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
+                                          std::span<const NearPair> near_pairs,
+                                          const RepeatConstants& constants) {
+  const long least_clip = std::lround(constants.least_clip_s * constants.rate);
+  std::vector<ExtentSet> sets(library.takes());
+  for (const TracedPath& traced : trace_paths(library, near_pairs, constants)) {
+    const std::vector<PlotPixel>& pixels = traced.path.pixels;
+    long begin = pixels.front().x, end = pixels.back().x + 1;
+    long other_begin = pixels.front().y, other_end = pixels.back().y + 1;
+    if (traced.take == traced.other_take) part_sides(begin, end, other_begin, other_end);
+    if (end - begin < least_clip || other_end - other_begin < least_clip) continue;
+    sets[traced.take].add(begin, end, static_cast<double>(other_end - other_begin));
+    sets[traced.other_take].add(other_begin, other_end, static_cast<double>(end - begin));
   }
   std::vector<ClipExtent> extents;
   for (std::size_t take = 0; take < sets.size(); ++take) sets[take].list(take, extents);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rma/repeat_groups.h"
+#include "rma/similar_posture_paths.h"
 
 namespace reprise {
 
@@ -21,8 +22,19 @@ struct ClipExtent {
 /// Part that two half-open intervals have in common, of what they cover together.
 double overlap_ratio(long begin_a, long end_a, long begin_b, long end_b);
 
-/// Traces a path through every near pair that none has come through yet, and gathers its
-/// projections; those that are nearly the same become one. Best supported first.
+/// A similar-posture path of two takes, or of one.
+struct TracedPath {
+  std::size_t take = 0;
+  std::size_t other_take = 0;
+  SimilarPath path;
+};
+
+/// A path through every near pair that none has come through yet, without those that are too short.
+std::vector<TracedPath> trace_paths(const PostureLibrary& library,
+                                    std::span<const NearPair> near_pairs,
+                                    const RepeatConstants& constants);
+
+/// The projections of those paths; those that are nearly the same become one. Best supported first.
 std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
                                           std::span<const NearPair> near_pairs,
                                           const RepeatConstants& constants);

@@ -103,7 +103,9 @@ void add_members(const PostureLibrary& library, const Occurrence& clip, const Po
     const long begin = stretch.begin + member.begin, end = stretch.begin + member.end;
     if (end - begin < least) continue;
     if (stretch.take == clip.take && begin < clip.end && clip.begin < end) continue;
-    group.occurrences.push_back({stretch.take, begin, end, member.mean_mm});
+    Occurrence occurrence{stretch.take, begin, end, member.mean_mm, member.map};
+    for (long& sample : occurrence.map) sample += stretch.begin;
+    group.occurrences.push_back(std::move(occurrence));
   }
 }
 

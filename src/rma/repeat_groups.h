@@ -45,6 +45,8 @@ struct Occurrence {
   long begin = 0;
   long end = 0;
   float distance_mm = 0;
+  /// Of each sample of the reference: the sample of this take beside it. Empty for the reference.
+  std::vector<long> map{};
 };
 
 /// The reference first, at distance 0; then its repeats by take and time. No two overlap.

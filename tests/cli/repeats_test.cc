@@ -12,7 +12,7 @@ class RepeatsCommandTest : public CommandTest {
  protected:
   void SetUp() override {
     output({"synth", "takes", "--takes", "8", "--seconds", "10", "--subjects", "2"});
-    output({"ingest", "lib.rpz", "takes", "--quiet"});
+    output({"ingest", "lib.rpz", "takes", "--fidelity", "preview", "--quiet"});
   }
 
   static std::string stem(const std::string& path) {

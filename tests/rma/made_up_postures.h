@@ -2,18 +2,27 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 
 #include "rma/postures.h"
 
 namespace reprise {
 
+/// A number in [0, 1) that looks drawn at random.
+inline double scrambled(int seed, int number) {
+  const double value = std::sin(78.233 * seed + 12.9898 * number) * 43758.5453;
+  return value - std::floor(value);
+}
+
 /// The posture of performance `seed` at `time` (seconds): far from those of other seeds and times.
 inline Eigen::RowVectorXf made_up_posture(int seed, double time) {
+  constexpr double turn = 6.283185307179586;
   Eigen::RowVectorXf posture(12);
   for (int c = 0; c < 12; ++c) {
-    const double phase = 1.7 * c + 12.9898 * seed;
-    posture[c] = static_cast<float>(300 * std::sin(phase + (0.9 + 0.23 * (c % 5)) * time) +
-                                    150 * std::sin(2.1 * phase + 2.3 * time));
+    const double slow = 0.7 + scrambled(seed, 4 * c), fast = 1.8 + scrambled(seed, 4 * c + 1);
+    posture[c] =
+        static_cast<float>(300 * std::sin(turn * scrambled(seed, 4 * c + 2) + slow * time) +
+                           150 * std::sin(turn * scrambled(seed, 4 * c + 3) + fast * time));
   }
   return posture;
 }
