@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "archive/kind_choice.h"
 #include "archive/parallel.h"
 #include "query/stored_forms.h"
 #include "reprise/error.h"
@@ -144,7 +145,8 @@ std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& spac
   const Members chosen = spread(
       training, std::max<std::size_t>(
                     1, static_cast<std::size_t>(part * static_cast<double>(training.size()))));
-  const KnotScales scales = measure_scales(space, chosen);
+  const double takes_each = static_cast<double>(all) / static_cast<double>(chosen.size());
+  const KnotScales scales = measure_scales(space, chosen, takes_each);
   const KnotModel model(scales);
   fits_.clear();
   produce_in_order(
@@ -157,22 +159,35 @@ std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& spac
         if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));
         tick_((*takes_)[chosen[c]].file.name);
       });
-  return cheaper_prior(scales, static_cast<double>(all) / static_cast<double>(chosen.size()));
+  return cheaper_prior(scales, takes_each);
 }
 
-KnotScales SpaceBuilder::measure_scales(const CoefficientSpace& space, const Members& members) {
+KnotScales SpaceBuilder::measure_scales(const CoefficientSpace& space, const Members& members,
+                                        double takes_each) {
   KnotScales scales;
+  std::vector<TakeCurves> curves;
   produce_in_order(
       members.size(), options_.jobs,
       [&](std::size_t m) {
         const Take take = read_again((*takes_)[members[m]], options_.read);
         const MarkedTake marked = mark_take(space.layout, take);
-        return take_knots(space, {take.frames(), take.frame_rate}, marked.root.tumbles,
-                          to_trajectories(space, take, marked));
+        return TakeCurves{{take.frames(), take.frame_rate},
+                          marked.root.tumbles,
+                          to_trajectories(space, take, marked)};
       },
-      [&](std::size_t, const TakeKnots& knots) { scales.add(knots.shape, knots.knots); });
+      [&](std::size_t, TakeCurves one) {
+        add_scales(space, one, scales);
+        curves.push_back(std::move(one));
+      });
   scales.settle();
-  return scales;
+  KindCosts costs;
+  const KnotModel model(scales);
+  const int step = guessed_step(coarse_mean_mm(options_.fidelity));
+  produce_in_order(
+      curves.size(), options_.jobs,
+      [&](std::size_t c) { return kind_costs(space, model, curves[c], step); },
+      [&](std::size_t, const KindCosts& own) { costs.add(own, takes_each); });
+  return costs.cheapest(scales);
 }
 
 std::vector<std::uint8_t> SpaceBuilder::cheaper_prior(const KnotScales& scales,

@@ -52,7 +52,8 @@ class SpaceBuilder {
   /// What the coder learns from some of the `training` takes, where that pays for `all` takes.
   std::vector<std::uint8_t> train_prior(const CoefficientSpace& space, const Members& training,
                                         std::size_t all);
-  KnotScales measure_scales(const CoefficientSpace& space, const Members& members);
+  KnotScales measure_scales(const CoefficientSpace& space, const Members& members,
+                            double takes_each);
   std::vector<std::uint8_t> cheaper_prior(const KnotScales& scales, double takes_each) const;
   void keep_fits(std::int64_t space);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace reprise {
 namespace {
@@ -18,8 +19,7 @@ class StepSearch {
         positions_(joint_positions(*take.skeleton, take.channels)) {
     MarkedTake marked = mark_take(space.layout, take);
     TrajectoryMatrix trajectories = to_trajectories(space, take, marked);
-    knots_ = take_knots(space, {take.frames(), take.frame_rate}, marked.root.tumbles,
-                        std::move(trajectories));
+    choose_kinds({take.frames(), take.frame_rate}, marked.root.tumbles, trajectories);
     find_switches();
   }
 
@@ -52,9 +52,19 @@ class StepSearch {
   /// The mean error grows with about this power of the step.
   static constexpr double error_exponent = 0.8;
 
-  int first_guess() const {
-    // A coefficient takes its share of all points' error; see docs/findings for the factor.
-    return step_index_of(2.2 * allowed_);
+  int first_guess() const { return guessed_step(allowed_); }
+
+  void choose_kinds(const TakeShape& shape, bool tumbles, const TrajectoryMatrix& trajectories) {
+    double least = std::numeric_limits<double>::infinity();
+    const std::vector<CurveKinds> possible = possible_kinds(model_, shape.frames);
+    for (const CurveKinds kinds : possible) {
+      TakeKnots knots = take_knots(space_, shape, tumbles, trajectories, kinds);
+      const double cost = possible.size() == 1 ? 0 : quantise(model_, knots, first_guess()).cost;
+      if (cost >= least) continue;
+      least = cost;
+      knots_ = std::move(knots);
+      kinds_ = kinds;
+    }
   }
 
   ChannelMatrix decode(int step, const QuantisedKnots& quantised) const {
@@ -64,14 +74,15 @@ class StepSearch {
 
   void find_switches() {
     const int step = first_guess();
-    switches_ = find_branch_switches(space_, take_, decode(step, quantise(model_, knots_, step)));
+    switches_ =
+        find_branch_switches(space_, take_, decode(step, quantise(model_, knots_, step).knots));
   }
 
   FittedTake measure(int step) const {
     FittedTake tried;
     tried.shape = knots_.shape;
     tried.shape.step_half_octaves = half_octaves(step);
-    tried.motion = {knots_.tumbles, step, switches_, quantise(model_, knots_, step)};
+    tried.motion = {knots_.tumbles, step, kinds_, switches_, quantise(model_, knots_, step).knots};
     const PositionMatrix decoded =
         joint_positions(*take_.skeleton, decode(step, tried.motion.knots));
     tried.distances = joint_distances(positions_, decoded);
@@ -88,10 +99,16 @@ class StepSearch {
   double allowed_;
   PositionMatrix positions_;
   TakeKnots knots_;
+  CurveKinds kinds_;
   std::vector<BranchSwitch> switches_;
 };
 
 }  // namespace
+
+int guessed_step(double mean_mm) {
+  // A coefficient takes its share of all points' error; see docs/findings for the factor.
+  return step_index_of(FitConstants::step_per_millimetre * mean_mm);
+}
 
 double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers) {
   const MarkerMatrix centred = markers.rowwise() - space.mean.transpose();

@@ -13,6 +13,8 @@ struct FitConstants {
   static constexpr double margin = 1e-4;
   /// A take fits a space if its axes leave no more than this part of the allowed mean error.
   static constexpr double most_residual = 0.65;
+  /// The quantiser's step for a millimetre of mean error, about.
+  static constexpr double step_per_millimetre = 2.2;
 };
 
 struct FittedTake {
@@ -22,6 +24,9 @@ struct FittedTake {
   std::vector<float> distances;  ///< frames x joints, mm, in no order
   bool kept = false;             ///< false: not even the finest step keeps the fidelity
 };
+
+/// The step that the search begins with.
+int guessed_step(double mean_mm);
 
 /// Root mean square distance (mm a point) that the axes of a space leave of a take's markers.
 double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers);

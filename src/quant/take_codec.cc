@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "quant/catmull_rom.h"
+#include "quant/cosine_transform.h"
 #include "quant/numbers.h"
 #include "reprise/error.h"
 
@@ -21,14 +22,30 @@ constexpr std::size_t most_bytes_past_end = 16;
   throw Error(ErrorCode::damaged, "the motion of a take is not as it was written");
 }
 
-KnotShape shape_of(const CoefficientSpace& space, const TakeShape& take, bool tumbles) {
+KnotShape shape_of(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
+                   CurveKinds curves) {
   const TrajectoryKinds kinds = trajectory_kinds(space, tumbles);
-  return {take.frames,
-          kinds.count(),
-          kinds.root,
-          kinds.direct,
-          knot_levels(take.frame_rate, take.frames),
-          first_level_of(take.frame_rate)};
+  KnotShape shape;
+  shape.frames = take.frames;
+  shape.trajectories = kinds.count();
+  shape.root = kinds.root;
+  shape.direct = kinds.direct;
+  shape.levels = knot_levels(take.frame_rate, take.frames);
+  shape.first_level = first_level_of(take.frame_rate);
+  shape.frame_rate = take.frame_rate;
+  shape.kind = curves.coefficients;
+  shape.root_kind = curves.root;
+  return shape;
+}
+
+template <class Nested, class Cosines>
+void transform(Eigen::MatrixXd& matrix, const KnotShape& shape, Nested&& nested,
+               Cosines&& cosines) {
+  for (const ColumnRun& run : column_runs(shape)) {
+    Eigen::MatrixXd columns = matrix.middleCols(run.first, run.last - run.first);
+    run.kind == CurveKind::cosines ? cosines(columns) : nested(columns, shape.levels);
+    matrix.middleCols(run.first, run.last - run.first) = columns;
+  }
 }
 
 }  // namespace
@@ -51,13 +68,26 @@ int step_index_of(double millimetres) {
 }
 
 TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
-                     TrajectoryMatrix trajectories) {
-  TakeKnots result{shape_of(space, take, tumbles), tumbles, std::move(trajectories)};
-  NestedKnots::from_frames(result.knots, result.shape.levels);
+                     TrajectoryMatrix trajectories, CurveKinds kinds) {
+  TakeKnots result{shape_of(space, take, tumbles, kinds), tumbles, std::move(trajectories)};
+  transform(result.knots, result.shape, NestedKnots::from_frames, frames_to_cosines);
   return result;
 }
 
-QuantisedKnots quantise(const KnotModel& model, const TakeKnots& knots, int step_index) {
+std::vector<CurveKinds> possible_kinds(const KnotModel& model, long frames) {
+  constexpr auto knots = CurveKind::nested_knots, cosines = CurveKind::cosines;
+  const auto has = [&](CurveKind kind) { return model.kinds()[static_cast<std::size_t>(kind)]; };
+  std::vector<CurveKinds> possible;
+  if (has(knots)) possible.push_back({knots, knots});
+  if (has(cosines) && frames <= most_cosine_frames) {
+    possible.push_back({cosines, cosines});
+    if (has(knots)) possible.push_back({cosines, knots});
+  }
+  if (possible.empty()) possible.push_back({knots, knots});
+  return possible;
+}
+
+KnotModel::Choice quantise(const KnotModel& model, const TakeKnots& knots, int step_index) {
   KnotShape shape = knots.shape;
   shape.step_half_octaves = half_octaves(step_index);
   return KnotModel(model).choose(shape, knots.knots / quantiser_step(step_index),
@@ -67,7 +97,7 @@ QuantisedKnots quantise(const KnotModel& model, const TakeKnots& knots, int step
 TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& shape,
                             int step_index) {
   TrajectoryMatrix trajectories = quantised.cast<double>() * quantiser_step(step_index);
-  NestedKnots::to_frames(trajectories, shape.levels);
+  transform(trajectories, shape, NestedKnots::to_frames, cosines_to_frames);
   return trajectories;
 }
 
@@ -76,6 +106,8 @@ std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape&
   RangeEncoder encoder;
   encoder.encode_plain(static_cast<std::uint32_t>(motion.step_index), step_bits);
   encoder.encode_plain(motion.tumbles, 1);
+  encoder.encode_plain(static_cast<std::uint32_t>(motion.kinds.coefficients), 1);
+  encoder.encode_plain(static_cast<std::uint32_t>(motion.kinds.root), 1);
   encode_number(encoder, static_cast<std::uint32_t>(motion.switches.size()));
   std::int32_t frame = 0;
   for (const BranchSwitch& branch : motion.switches) {
@@ -96,6 +128,11 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
   CodedMotion motion;
   motion.step_index = static_cast<int>(decoder.decode_plain(step_bits));
   motion.tumbles = decoder.decode_plain(1) != 0;
+  motion.kinds.coefficients = static_cast<CurveKind>(decoder.decode_plain(1));
+  motion.kinds.root = static_cast<CurveKind>(decoder.decode_plain(1));
+  const bool cosines =
+      motion.kinds.coefficients == CurveKind::cosines || motion.kinds.root == CurveKind::cosines;
+  if (cosines && take.frames > most_cosine_frames) throw_damaged();
   const std::uint32_t switches = decode_number(decoder);
   std::int64_t frame = 0;
   for (std::uint32_t s = 0; s < switches; ++s) {
@@ -110,7 +147,7 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
     for (std::int32_t& turn : branch.quarter_turns) turn = decode_signed(decoder);
     motion.switches.push_back(branch);
   }
-  KnotShape shape = shape_of(space, take, motion.tumbles);
+  KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
   shape.step_half_octaves = half_octaves(motion.step_index);
   motion.knots = KnotModel(model).decode(decoder, shape);
   if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
@@ -122,7 +159,8 @@ ChannelMatrix decode_take(const CodedSpace& coded, const Skeleton& skeleton, con
   const CodedMotion motion = decode_motion(coded.model, coded.space, take, bytes);
   return to_channels(
       coded.space, skeleton, motion.tumbles,
-      dequantise(motion.knots, shape_of(coded.space, take, motion.tumbles), motion.step_index),
+      dequantise(motion.knots, shape_of(coded.space, take, motion.tumbles, motion.kinds),
+                 motion.step_index),
       motion.switches);
 }
 

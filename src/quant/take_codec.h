@@ -40,11 +40,18 @@ struct TakeKnots {
   bool tumbles = false;
   Eigen::MatrixXd knots;
 };
+/// How the coefficients of the axes, and the root and direct channels, are written.
+struct CurveKinds {
+  CurveKind coefficients = CurveKind::nested_knots;
+  CurveKind root = CurveKind::nested_knots;
+};
 TakeKnots take_knots(const CoefficientSpace& space, const TakeShape& take, bool tumbles,
-                     TrajectoryMatrix trajectories);
+                     TrajectoryMatrix trajectories, CurveKinds kinds = {});
+/// The pairs of kinds that a take may be written in.
+std::vector<CurveKinds> possible_kinds(const KnotModel& model, long frames);
 
 /// Chooses quantised knots by error and bits, with contexts that start as `model`.
-QuantisedKnots quantise(const KnotModel& model, const TakeKnots& knots, int step_index);
+KnotModel::Choice quantise(const KnotModel& model, const TakeKnots& knots, int step_index);
 /// Trajectories as the decoder sees them.
 TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& shape,
                             int step_index);
@@ -53,6 +60,7 @@ TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& sh
 struct CodedMotion {
   bool tumbles = false;
   int step_index = 0;
+  CurveKinds kinds;
   std::vector<BranchSwitch> switches;
   QuantisedKnots knots;
 };

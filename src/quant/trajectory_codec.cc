@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "quant/catmull_rom.h"
 #include "quant/numbers.h"
 
 namespace reprise {
@@ -28,7 +27,7 @@ constexpr int exponent_bits = 5;
 /// Contexts tell no difference between larger magnitudes than this.
 constexpr int context_limit = 1 << 20;
 
-constexpr std::uint32_t level_slots = KnotScales::level_slots;
+constexpr std::uint32_t slots = KnotSlots::count;
 constexpr std::uint32_t column_slots = 72;
 constexpr std::uint32_t root_slots = 8;
 constexpr std::uint32_t magnitude_bins = 8;
@@ -40,9 +39,9 @@ constexpr std::uint32_t scale_bins = 24;
 constexpr int scale_bias = 8;
 
 constexpr std::uint32_t knot_contexts[BitModelConstants::inputs] = {
-    scale_bins * level_slots, level_slots* magnitude_bins* magnitude_bins,
+    scale_bins * slots, slots* magnitude_bins* magnitude_bins,
     magnitude_bins* magnitude_bins* magnitude_bins, scale_bins / 2 * fine_bins,
-    level_slots* column_slots};
+    slots* column_slots};
 
 /// Small numbers apart, large ones by their logarithm.
 std::uint32_t bin(int magnitude) {
@@ -69,42 +68,39 @@ class KnotWalk {
       : io_(io), scales_(scales), shape_(shape), knots_(knots) {}
 
   void run() {
-    for (int level = shape_.levels; level >= 0; --level) {
-      const bool coarsest = level == shape_.levels;
-      const Index stride = Index{1} << level;
-      const Index first = coarsest ? 0 : stride;
-      const Index step = coarsest ? stride : 2 * stride;
-      const auto slot = u(level_slot(shape_, level));
-      const int end = code_end(first, step, slot);
-      for (Index frame = first; frame < shape_.frames; frame += step) {
-        for (int column = 0; column < end; ++column)
-          code_knot(frame, column, step, stride, slot, coarsest);
+    for (const KnotGroup& group : knot_order(shape_)) {
+      const int end = code_end(group);
+      for (const KnotRow& row : group.rows) {
+        for (int column = group.first_column; column < end; ++column) code_knot(group, row, column);
       }
     }
   }
 
  private:
-  /// One past the last trajectory that has a knot of this level.
-  int code_end(Index first, Index step, std::uint32_t slot) {
-    int end = 0;
-    for (Index frame = first; frame < shape_.frames; frame += step) {
-      for (int column = shape_.trajectories - 1; column >= end; --column) {
-        if (knots_(frame, column) != 0) end = column + 1;
+  /// One past the last trajectory that has a knot in this group.
+  int code_end(const KnotGroup& group) {
+    int end = group.first_column;
+    for (const KnotRow& row : group.rows) {
+      for (int column = group.last_column - 1; column >= end; --column) {
+        if (knots_(row.row, column) != 0) end = column + 1;
       }
     }
+    const auto slot = u(group.slot);
+    const auto most = static_cast<unsigned>(group.last_column - group.first_column);
+    const unsigned used = static_cast<unsigned>(end - group.first_column);
     std::uint32_t node = 1;
-    for (int b = std::bit_width(static_cast<unsigned>(shape_.trajectories)) - 1; b >= 0; --b) {
+    for (int b = std::bit_width(most) - 1; b >= 0; --b) {
       const std::uint32_t bits = std::min<std::uint32_t>(node, (1u << end_slots) - 1);
       BitMixer::Contexts contexts;
       for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
         contexts.counter[t] =
             decision_count * knot_contexts[t] + (t == 0 ? slot << end_slots | bits : 0);
       }
-      contexts.weights = decision_count * level_slots;
-      node = node << 1 | io_(contexts, (end >> b & 1) != 0);
+      contexts.weights = decision_count * slots;
+      node = node << 1 | io_(contexts, (used >> b & 1) != 0);
     }
-    const auto width = std::bit_width(static_cast<unsigned>(shape_.trajectories));
-    return std::min<int>(static_cast<int>(node - (1u << width)), shape_.trajectories);
+    return group.first_column +
+           static_cast<int>(std::min(node - (1u << std::bit_width(most)), most));
   }
 
   /// A knot that is coded already, as contexts see it; 0 outside.
@@ -114,29 +110,28 @@ class KnotWalk {
     return inside ? std::clamp(knots_(frame, column), -context_limit, context_limit) : 0;
   }
 
-  void code_knot(Index frame, int column, Index step, Index stride, std::uint32_t slot,
-                 bool coarsest) {
-    const int before = at(frame - step, column), before_that = at(frame - 2 * step, column);
-    const int left = coarsest ? 0 : at(frame - stride, column);
-    const int right = coarsest ? 0 : at(frame + stride, column);
+  void code_knot(const KnotGroup& group, const KnotRow& row, int column) {
+    const Index frame = row.row;
+    const bool coarsest = group.coarsest;
+    const auto slot = u(group.slot);
+    const int before = at(row.before, column), before_that = at(row.before_that, column);
+    const int left = at(row.left, column), right = at(row.right, column);
     const int beside = at(frame, column - 1), beside_that = at(frame, column - 2);
-    const int predicted = coarsest ? prediction(frame - step, column) : 0;
+    const int predicted = coarsest ? prediction(row.before, column) : 0;
     // Far above the prediction only what differs from it counts.
     const int a = std::abs(coarsest && predicted != 0 ? before - before_that : before);
     const int a2 = coarsest ? 0 : std::abs(before_that);
     const int parents = std::abs(left) + std::abs(right);
     const int neighbours = 2 * std::abs(beside) + std::abs(beside_that);
-    const auto u = [](auto value) { return static_cast<std::uint32_t>(value); };
-
     const std::uint32_t column_slot =
         column < shape_.root ? u(column)
         : column >= shape_.trajectories - shape_.direct
             ? column_slots - 1
             : std::min<std::uint32_t>(root_slots + u(column - shape_.root), column_slots - 2);
-    const auto expected = u(std::clamp(
-        scales_.at(shape_, static_cast<int>(slot), column) - shape_.step_half_octaves + scale_bias,
-        0, static_cast<int>(scale_bins) - 1));
-    base_[0] = expected * level_slots + slot;
+    const auto expected =
+        u(std::clamp(scales_.at(shape_, group.slot, column) - shape_.step_half_octaves + scale_bias,
+                     0, static_cast<int>(scale_bins) - 1));
+    base_[0] = expected * slots + slot;
     base_[1] = (slot * magnitude_bins + bin(2 * a + a2)) * magnitude_bins + bin(parents);
     base_[2] = (bin(neighbours) * magnitude_bins + bin(a)) * magnitude_bins + bin(parents);
     base_[3] = expected / 2 * fine_bins + fine_bin(2 * a + a2 + parents + neighbours);
@@ -166,7 +161,7 @@ class KnotWalk {
     for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
       contexts.counter[t] = decision * knot_contexts[t] + base_[t];
     }
-    contexts.weights = decision * level_slots + slot_;
+    contexts.weights = decision * slots + slot_;
     return contexts;
   }
 
@@ -210,7 +205,7 @@ class KnotWalk {
     return decide(sign_is_negative, value < 0) ? -known : known;
   }
 
-  static std::uint32_t u(int value) { return static_cast<std::uint32_t>(value); }
+  static constexpr std::uint32_t u(int value) { return static_cast<std::uint32_t>(value); }
 
   /// Numbers beyond the unary ones: how many bits, then the bits.
   int code_rest(int rest) {
@@ -218,12 +213,12 @@ class KnotWalk {
     std::uint32_t node = 1;
     BitMixer::Contexts contexts;
     for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] = decision_count * knot_contexts[t] + (level_slots << end_slots);
+      contexts.counter[t] = decision_count * knot_contexts[t] + (slots << end_slots);
     }
-    contexts.weights = decision_count * level_slots;
+    contexts.weights = decision_count * slots;
     const auto width = static_cast<std::uint32_t>(std::bit_width(plus_one));
     for (int b = exponent_bits - 1; b >= 0; --b) {
-      contexts.counter[0] = decision_count * knot_contexts[0] + (level_slots << end_slots) + node;
+      contexts.counter[0] = decision_count * knot_contexts[0] + (slots << end_slots) + node;
       for (std::uint32_t t = 1; t < BitModelConstants::inputs; ++t) {
         contexts.counter[t] = decision_count * knot_contexts[t];
       }
@@ -246,19 +241,28 @@ class KnotWalk {
 std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
   std::array<std::size_t, BitModelConstants::inputs> sizes;
   for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = decision_count * knot_contexts[t] + 1;
-  sizes[0] += (std::size_t{level_slots} << end_slots) + (1u << exponent_bits);
+  sizes[0] += (std::size_t{slots} << end_slots) + (1u << exponent_bits);
   return sizes;
 }
 
 constexpr std::uint32_t most_columns = 1u << 16;
 
-/// A scale is likely to be that of the trajectory before, as the level before differs there.
+/// A scale is likely to be that of the trajectory before, as the slot before differs there.
 int expected_scale(const KnotScales& scales, std::size_t i) {
   const auto columns = static_cast<std::size_t>(scales.columns);
-  const std::size_t row = i / columns, column = i % columns;
+  const std::size_t slot = i / columns, column = i % columns;
   const int left = column > 0 ? scales.codes[i - 1] : 0;
-  const int above = row > 0 ? scales.codes[i - columns] : left;
-  return column == 0 ? above : row == 0 ? left : (left + above) / 2;
+  const bool first = slot == 0 || slot == KnotSlots::first_of(CurveKind::cosines);
+  const int above = first ? left : scales.codes[i - columns];
+  return column == 0 ? above : first ? left : (left + above) / 2;
+}
+
+template <class Do>
+void for_scales_of(CurveKind kind, int columns, Do&& do_one) {
+  const int first = KnotSlots::first_of(kind) * columns;
+  for (int i = first; i < first + KnotSlots::count_of(kind) * columns; ++i) {
+    do_one(static_cast<std::size_t>(i));
+  }
 }
 
 struct Writer {
@@ -301,12 +305,16 @@ struct Learner {
 struct Chooser {
   const Eigen::MatrixXd& knots;
   double lambda;
+  std::uint64_t& cost;
   BitMixer& mixer;
   bool operator()(const BitMixer::Contexts& contexts, bool bit) {
-    mixer.learn(contexts, bit);
+    cost += mixer.learn(contexts, bit);
     return bit;
   }
-  std::uint32_t plain(std::uint32_t value, int count) { return value & ((1u << count) - 1); }
+  std::uint32_t plain(std::uint32_t value, int count) {
+    cost += static_cast<std::uint64_t>(count) << 16;
+    return value & ((1u << count) - 1);
+  }
   double wanted(Index frame, int column) const {
     constexpr double most = 1 << 29;
     return std::clamp(knots(frame, column), -most, most);
@@ -317,15 +325,6 @@ struct Chooser {
 };
 
 }  // namespace
-
-int first_level_of(double frame_rate) {
-  return std::clamp(static_cast<int>(std::lround(std::log2(120.0 / frame_rate))), 0, 6);
-}
-
-int level_slot(const KnotShape& shape, int level) {
-  return level == shape.levels ? KnotScales::level_slots - 1
-                               : std::min(KnotScales::level_slots - 2, level + shape.first_level);
-}
 
 int KnotScales::column_of(const KnotShape& shape, int column) const {
   // Columns of a take that does not tumble; the further columns of one that does are taken for its
@@ -339,20 +338,20 @@ void KnotScales::add(const KnotShape& shape, const Eigen::MatrixXd& knots) {
   if (shape.root > 4) return;
   if (squares_.empty()) {
     columns = shape.trajectories;
-    squares_.assign(static_cast<std::size_t>(level_slots * columns), 0);
+    squares_.assign(static_cast<std::size_t>(KnotSlots::count * columns), 0);
     counts_ = squares_;
   }
-  for (Index f = 0; f < knots.rows(); ++f) {
-    const int slot = level_slot(shape, knot_level(f, shape.levels));
-    for (int c = 0; c < columns; ++c) {
-      // The coarsest knots of the root are coded by what they differ from the one before.
-      const bool follows =
-          slot == level_slots - 1 && (c < shape.root || c >= columns - shape.direct);
-      const Index before = f - (Index{1} << shape.levels);
-      if (follows && before < 0) continue;
-      const double value = knots(f, c) - (follows ? knots(before, c) : 0.0);
-      squares_[static_cast<std::size_t>(slot * columns + c)] += value * value;
-      counts_[static_cast<std::size_t>(slot * columns + c)] += 1;
+  for (const KnotGroup& group : knot_order(shape)) {
+    for (const KnotRow& row : group.rows) {
+      for (int c = group.first_column; c < std::min(group.last_column, columns); ++c) {
+        // The coarsest knots of the root are coded by what they differ from the one before.
+        const bool follows = group.coarsest && (c < shape.root || c >= columns - shape.direct);
+        if (follows && row.before < 0) continue;
+        const double value = knots(row.row, c) - (follows ? knots(row.before, c) : 0.0);
+        const auto i = static_cast<std::size_t>(group.slot * columns + c);
+        squares_[i] += value * value;
+        counts_[i] += 1;
+      }
     }
   }
 }
@@ -365,6 +364,17 @@ void KnotScales::settle() {
     codes.push_back(static_cast<std::int8_t>(
         std::clamp(static_cast<int>(std::lround(half_octaves)), least, most)));
   }
+  kinds.fill(true);
+}
+
+void KnotScales::keep(const std::array<bool, curve_kinds>& kept) {
+  kinds = kept;
+  for (int kind = 0; kind < curve_kinds; ++kind) {
+    if (kept[kind]) continue;
+    const auto of = static_cast<CurveKind>(kind);
+    std::fill_n(codes.begin() + KnotSlots::first_of(of) * columns,
+                KnotSlots::count_of(of) * columns, static_cast<std::int8_t>(least));
+  }
 }
 
 int KnotScales::at(const KnotShape& shape, int slot, int column) const {
@@ -373,13 +383,17 @@ int KnotScales::at(const KnotShape& shape, int slot, int column) const {
 }
 
 KnotModel::KnotModel(KnotScales scales)
-    : scales_(std::move(scales)), mixer_(table_sizes(), decision_count * level_slots + 1) {}
+    : scales_(std::move(scales)), mixer_(table_sizes(), decision_count * slots + 1) {}
 
 std::vector<std::uint8_t> KnotModel::prior(bool with_contexts) const {
   RangeEncoder encoder;
   encode_number(encoder, static_cast<std::uint32_t>(scales_.columns));
-  for (std::size_t i = 0; i < scales_.codes.size(); ++i) {
-    encode_signed(encoder, scales_.codes[i] - expected_scale(scales_, i));
+  for (int kind = 0; kind < curve_kinds; ++kind) {
+    encoder.encode_plain(scales_.kinds[kind], 1);
+    if (!scales_.kinds[kind]) continue;
+    for_scales_of(static_cast<CurveKind>(kind), scales_.columns, [&](std::size_t i) {
+      encode_signed(encoder, scales_.codes[i] - expected_scale(scales_, i));
+    });
   }
   encoder.encode_plain(with_contexts, 1);
   if (with_contexts) mixer_.save(encoder);
@@ -392,10 +406,15 @@ bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
   if (columns > most_columns) return false;
   scales_ = {};
   scales_.columns = static_cast<int>(columns);
-  scales_.codes.resize(columns * level_slots);
-  for (std::size_t i = 0; i < scales_.codes.size(); ++i) {
-    scales_.codes[i] = static_cast<std::int8_t>(std::clamp(
-        decode_signed(decoder) + expected_scale(scales_, i), KnotScales::least, KnotScales::most));
+  scales_.codes.assign(columns * slots, KnotScales::least);
+  for (int kind = 0; kind < curve_kinds; ++kind) {
+    scales_.kinds[kind] = decoder.decode_plain(1) != 0;
+    if (!scales_.kinds[kind]) continue;
+    for_scales_of(static_cast<CurveKind>(kind), scales_.columns, [&](std::size_t i) {
+      scales_.codes[i] =
+          static_cast<std::int8_t>(std::clamp(decode_signed(decoder) + expected_scale(scales_, i),
+                                              KnotScales::least, KnotScales::most));
+    });
   }
   if (decoder.decode_plain(1) != 0) mixer_.load(decoder);
   return decoder.bytes_past_end() <= 16;
@@ -419,16 +438,20 @@ double KnotModel::learn(const KnotShape& shape, const QuantisedKnots& knots) {
   return static_cast<double>(cost) / 65536.0;
 }
 
-QuantisedKnots KnotModel::choose(const KnotShape& shape, const Eigen::MatrixXd& knots,
-                                 double lambda) {
-  // What the walk finds says up to which trajectory there are knots on a level.
+KnotModel::Choice KnotModel::choose(const KnotShape& shape, const Eigen::MatrixXd& knots,
+                                    double lambda) {
+  // What the walk finds says up to which trajectory there are knots in a group.
   constexpr double dead_zone = 0.62;
-  QuantisedKnots chosen = knots.unaryExpr([](double value) {
+  Choice choice;
+  choice.knots = knots.unaryExpr([](double value) {
     const double size = std::floor(std::min(std::abs(value), double{1 << 29}) + 1.0 - dead_zone);
     return static_cast<std::int32_t>(value < 0 ? -size : size);
   });
-  KnotWalk<Chooser>({knots, lambda, mixer_}, scales_, shape, chosen).run();
-  return chosen;
+  std::uint64_t bits = 0;
+  KnotWalk<Chooser>({knots, lambda, bits, mixer_}, scales_, shape, choice.knots).run();
+  choice.cost = (knots - choice.knots.cast<double>()).squaredNorm() / lambda +
+                static_cast<double>(bits) / 65536.0;
+  return choice;
 }
 
 }  // namespace reprise

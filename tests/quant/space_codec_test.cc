@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "ingest/principal_components.h"
@@ -87,19 +88,38 @@ TEST_F(SpaceCodec, DamagedSpacesAndTakesAreErrorsOrMotion) {
   }
 }
 
-TEST_F(SpaceCodec, TakesComeBackFromTheirBytes) {
+class TakeCodec : public SpaceCodec, public testing::WithParamInterface<CurveKinds> {};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TakeCodec,
+                         testing::Values(CurveKinds{CurveKind::nested_knots,
+                                                    CurveKind::nested_knots},
+                                         CurveKinds{CurveKind::cosines, CurveKind::cosines},
+                                         CurveKinds{CurveKind::cosines, CurveKind::nested_knots}));
+
+TEST_P(TakeCodec, TakesComeBackFromTheirBytes) {
   CodedSpace coded;
   coded.space = space_;
   const TakeShape shape{take_.frames(), take_.frame_rate};
   const MarkedTake marked = mark_take(space_.layout, take_);
+  const CurveKinds kinds = GetParam();
   const TakeKnots knots =
-      take_knots(space_, shape, marked.root.tumbles, to_trajectories(space_, take_, marked));
-  const CodedMotion motion{
-      false, 224, {{3, 1, {1, -2, 0}}, {9, -1, {0, 0, 4}}}, quantise(coded.model, knots, 224)};
+      take_knots(space_, shape, marked.root.tumbles, to_trajectories(space_, take_, marked), kinds);
+  const CodedMotion motion{false,
+                           224,
+                           kinds,
+                           {{3, 1, {1, -2, 0}}, {9, -1, {0, 0, 4}}},
+                           quantise(coded.model, knots, 224).knots};
   const auto bytes = encode_motion(coded.model, knots.shape, motion);
   const CodedMotion decoded = decode_motion(coded.model, space_, shape, bytes);
   EXPECT_EQ(decoded.knots, motion.knots);
   EXPECT_EQ(decoded.step_index, motion.step_index);
+  EXPECT_EQ(decoded.kinds.coefficients, kinds.coefficients);
+  EXPECT_EQ(decoded.kinds.root, kinds.root);
+  // The trajectories themselves come back up to what the step leaves.
+  const TrajectoryMatrix original = to_trajectories(space_, take_, marked);
+  const TrajectoryMatrix back = dequantise(decoded.knots, knots.shape, decoded.step_index);
+  const double each = (back - original).norm() / std::sqrt(static_cast<double>(original.size()));
+  EXPECT_LT(each, quantiser_step(decoded.step_index));
   ASSERT_EQ(decoded.switches.size(), 2u);
   EXPECT_EQ(decoded.switches[1].driven, -1);
   EXPECT_EQ(decoded.switches[0].quarter_turns, motion.switches[0].quarter_turns);
