@@ -66,6 +66,7 @@ void frames_to_cosines(Eigen::Ref<Eigen::MatrixXd> trajectories) {
 
 void cosines_to_frames(Eigen::Ref<Eigen::MatrixXd> cosines) {
   const Index n = cosines.rows();
+  if (n == 0) return;
   const std::vector<double> circle = cosine_circle(n);
   Eigen::MatrixXd frames = Eigen::MatrixXd::Zero(n, cosines.cols());
   Eigen::VectorXd wave(n);

@@ -12,13 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 TEST(CosineTransform, FramesComeBack) {
-  for (const Index frames : {1, 2, 3, 4, 17, 64, 97, 360, 1009}) {
+  for (const Index frames : {0, 1, 2, 3, 4, 17, 64, 97, 360, 1009}) {
     const MatrixXd original = 100.0 * MatrixXd::Random(frames, 3);
     MatrixXd cosines = original;
     frames_to_cosines(cosines);
     EXPECT_NEAR(cosines.norm(), original.norm(), 1e-9 * original.norm()) << frames;
     cosines_to_frames(cosines);
-    EXPECT_LT((cosines - original).cwiseAbs().maxCoeff(), 1e-9) << frames;
+    EXPECT_LT((cosines - original).norm(), 1e-8) << frames;
   }
 }
 
