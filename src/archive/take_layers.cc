@@ -19,15 +19,15 @@ class LayerMaker {
   LayerMaker(const CodedSpace& space, const Take& take) : space_(space), take_(take) {}
 
   void add_coefficients(FittedTake fitted, double mean_mm) {
-    add(LayerKind::coefficients, mean_mm, 0, "curves",
+    add(LayerKind::coefficients, mean_mm, "curves",
         encode_motion(space_.model, fitted.shape, fitted.motion));
     made_.errors = fitted.errors;
     made_.distances = std::move(fitted.distances);
   }
 
   void add_refinement(double bound_mm) {
-    Refinement refined = refine(take_, nullptr, bound_mm, {});
-    add(LayerKind::refinement, bound_mm, 0, "refinement", std::move(refined.bytes));
+    Refinement refined = refine(take_, bound_mm);
+    add(LayerKind::refinement, bound_mm, "refinement", std::move(refined.bytes));
     made_.distances = joint_distances(joint_positions(*take_.skeleton, take_.channels),
                                       joint_positions(*take_.skeleton, refined.decoded));
     made_.errors = summarise_distances(made_.distances);
@@ -36,7 +36,7 @@ class LayerMaker {
   void add_text(const std::string& text) {
     const std::string known =
         take_.skeleton->format == MotionFormat::bvh ? take_.skeleton->source_text : std::string();
-    add(LayerKind::text, 0, 0, "text", encode_text(text, known));
+    add(LayerKind::text, 0, "text", encode_text(text, known));
     std::ranges::fill(made_.distances, 0.0F);
     made_.errors = {};
   }
@@ -44,9 +44,9 @@ class LayerMaker {
   TakeLayers finish() { return std::move(made_); }
 
  private:
-  void add(LayerKind kind, double limit_mm, int base, const char* part, Bytes data) {
+  void add(LayerKind kind, double limit_mm, const char* part, Bytes data) {
     made_.spent.emplace_back(part, data.size());
-    made_.layers.push_back({kind, limit_mm, base, std::move(data)});
+    made_.layers.push_back({kind, limit_mm, std::move(data)});
   }
 
   const CodedSpace& space_;

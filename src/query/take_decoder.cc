@@ -49,12 +49,8 @@ ChannelMatrix channels_of(OpenArchive& archive, const TakeRecord& record, const 
   switch (layer.kind) {
     case LayerKind::coefficients:
       return decode_take(archive.space(record.space), *empty.skeleton, shape, data);
-    case LayerKind::refinement: {
-      if (layer.base == 0) return decode_refinement(*empty.skeleton, shape, nullptr, data, {});
-      const ChannelMatrix lower =
-          channels_of(archive, record, empty, static_cast<std::size_t>(layer.base) - 1);
-      return decode_refinement(*empty.skeleton, shape, &lower, data, {});
-    }
+    case LayerKind::refinement:
+      return decode_refinement(*empty.skeleton, shape, data);
     case LayerKind::text:
       return parsed_channels(empty, decode_text(data, known_text(empty)), record.info.name);
   }

@@ -8,13 +8,10 @@
 
 namespace reprise {
 
-Refinement refine(const Take& take, const ChannelMatrix*, double bound_mm, const RefinementModel&) {
-  return Refiner(take, bound_mm).run();
-}
+Refinement refine(const Take& take, double bound_mm) { return Refiner(take, bound_mm).run(); }
 
 ChannelMatrix decode_refinement(const Skeleton& skeleton, const TakeShape& shape,
-                                const ChannelMatrix*, std::span<const std::uint8_t> bytes,
-                                const RefinementModel&) {
+                                std::span<const std::uint8_t> bytes) {
   return CodedChannels::decode(skeleton, shape, bytes).channels(skeleton);
 }
 

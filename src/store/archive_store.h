@@ -62,7 +62,6 @@ enum class LayerKind : std::uint8_t {
 struct LayerRecord {
   LayerKind kind = LayerKind::coefficients;
   double limit_mm = 0;  ///< what the layer promises, to a micrometre; 0 of a text
-  int base = 0;         ///< which layer (from 1 on) must be decoded before it; 0: none
   Bytes data;           ///< opaque here
 };
 

@@ -116,7 +116,6 @@ Digest take_content(const TakeRecord& record, const Digest& proportions, const D
   hasher.add_bytes(space);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     hasher.add_number(static_cast<int>(record.layers[i].kind));
-    hasher.add_number(record.layers[i].base);
     hasher.add_number(micrometres(record.layers[i].limit_mm));
     hasher.add_bytes(layers[i]);
   }

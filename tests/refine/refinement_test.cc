@@ -30,9 +30,8 @@ double worst_distance(const Take& take, const ChannelMatrix& channels) {
 
 /// Refines, decodes, writes the take as text and reads it: within the bound everywhere.
 std::size_t expect_bound(const Take& take, double bound_mm) {
-  const Refinement refinement = refine(take, nullptr, bound_mm, {});
-  const ChannelMatrix decoded =
-      decode_refinement(*take.skeleton, shape_of(take), nullptr, refinement.bytes, {});
+  const Refinement refinement = refine(take, bound_mm);
+  const ChannelMatrix decoded = decode_refinement(*take.skeleton, shape_of(take), refinement.bytes);
   EXPECT_TRUE(decoded == refinement.decoded) << "decoding gives something else";
   EXPECT_LE(refinement.max_mm, bound_mm);
   EXPECT_NEAR(worst_distance(take, decoded), refinement.max_mm, 1e-6 * bound_mm);
@@ -95,7 +94,7 @@ TEST_P(Refinements, StandingStillCostsNothing) {
 
 TEST_P(Refinements, HostileBytesAreDamageOrMotion) {
   const Take take = synthetic_take(GetParam(), 1);
-  const Refinement refinement = refine(take, nullptr, 10, {});
+  const Refinement refinement = refine(take, 10);
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
     auto bytes = refinement.bytes;
@@ -105,8 +104,7 @@ TEST_P(Refinements, HostileBytesAreDamageOrMotion) {
                        : random() % bytes.size()] = static_cast<std::uint8_t>(random());
     }
     try {
-      const ChannelMatrix channels =
-          decode_refinement(*take.skeleton, shape_of(take), nullptr, bytes, {});
+      const ChannelMatrix channels = decode_refinement(*take.skeleton, shape_of(take), bytes);
       EXPECT_EQ(channels.rows(), take.frames());
       EXPECT_TRUE(channels.allFinite());
     } catch (const Error& error) {

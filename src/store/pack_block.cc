@@ -1,0 +1,174 @@
+// A block of takes into bytes, column by column.
+#include <algorithm>
+#include <bit>
+#include <functional>
+
+#include "store/block_columns.h"
+#include "store/compression.h"
+#include "store/number_columns.h"
+
+namespace reprise {
+namespace {
+
+std::int64_t difference(std::uint64_t a, std::uint64_t b) {
+  return static_cast<std::int64_t>(a - b);
+}
+
+class Packer {
+ public:
+  explicit Packer(const TakeBlock& block) : takes_(block.takes) {}
+
+  Bytes pack() {
+    writer_.number(takes_.size());
+    pack_numbers();
+    pack_errors();
+    pack_layers();
+    pack_spent();
+    pack_clips();
+    pack_texts();
+    return writer_.finish();
+  }
+
+ private:
+  using Value = std::function<std::uint64_t(const StoredTake&)>;
+  /// One number of each take.
+  void column(const Value& value) {
+    std::vector<std::uint64_t> values;
+    for (const StoredTake& take : takes_) values.push_back(value(take));
+    writer_.numbers(values);
+  }
+  /// As many numbers of each take as it has, all in one column.
+  void columns(const std::function<std::size_t(const StoredTake&)>& count,
+               const std::function<std::uint64_t(const StoredTake&, std::size_t)>& value) {
+    std::vector<std::uint64_t> values;
+    for (const StoredTake& take : takes_) {
+      for (std::size_t i = 0; i < count(take); ++i) values.push_back(value(take, i));
+    }
+    writer_.numbers(values);
+  }
+
+  void pack_numbers() {
+    std::size_t next = 0;
+    column([&](const StoredTake& take) {
+      const std::size_t gap = take.slot - next;
+      next = take.slot + 1;
+      return gap;
+    });
+    column([](const StoredTake& t) { return static_cast<std::uint64_t>(t.record.proportions); });
+    column([](const StoredTake& t) { return static_cast<std::uint64_t>(t.record.space); });
+    column([](const StoredTake& t) { return static_cast<std::uint64_t>(t.record.info.frames); });
+    const auto tier = [](const StoredTake& t) { return t.record.info.fidelity.tier; };
+    column([&](const StoredTake& t) { return static_cast<std::uint64_t>(tier(t)); });
+    column([](const StoredTake& t) {
+      return std::bit_cast<std::uint64_t>(t.record.info.fidelity.limit_mm);
+    });
+    // Files of a kind have much the same size a frame.
+    const auto frames = [](const StoredTake& t) {
+      return static_cast<std::uint64_t>(std::max(1L, t.record.info.frames));
+    };
+    column([&](const StoredTake& t) { return t.record.info.text_bytes / frames(t); });
+    column([&](const StoredTake& t) { return t.record.info.text_bytes % frames(t); });
+  }
+
+  void pack_errors() {
+    const auto error = [&](double PositionErrors::*member) {
+      column([member](const StoredTake& t) {
+        return static_cast<std::uint64_t>(micrometres(t.record.info.error_mm.*member));
+      });
+    };
+    error(&PositionErrors::mean);
+    error(&PositionErrors::rms);
+    error(&PositionErrors::p99);
+    error(&PositionErrors::max);
+    const auto sketch_size = [](const StoredTake& t) { return t.record.error_quantiles.size(); };
+    column(sketch_size);
+    std::size_t most = 0;
+    for (const StoredTake& take : takes_) most = std::max(most, sketch_size(take));
+    for (std::size_t q = 0; q < most; ++q) {
+      // Quantiles rise.
+      columns([&](const StoredTake& t) -> std::size_t { return q < sketch_size(t) ? 1 : 0; },
+              [&](const StoredTake& t, std::size_t) {
+                const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
+                return static_cast<std::uint64_t>((t.record.error_quantiles[q] - before) & 255);
+              });
+    }
+  }
+
+  void pack_layers() {
+    const auto count = [](const StoredTake& t) { return t.places.size(); };
+    column(count);
+    const auto layer = [](const StoredTake& t, std::size_t i) -> const LayerRecord& {
+      return t.record.layers[i];
+    };
+    columns(count, [&](const StoredTake& t, std::size_t i) {
+      return static_cast<std::uint64_t>(layer(t, i).kind);
+    });
+    columns(count, [&](const StoredTake& t, std::size_t i) {
+      return static_cast<std::uint64_t>(micrometres(layer(t, i).limit_mm));
+    });
+    columns(count, size_of_layer);
+    columns(count, [](const StoredTake& t, std::size_t i) -> std::uint64_t {
+      return t.places[i].compressed ? 1 : 0;
+    });
+    for (const StoredTake& take : takes_) {
+      for (const LayerPlace& place : take.places) writer_.raw(place.digest);
+    }
+  }
+
+  void pack_spent() {
+    const auto count = [](const StoredTake& t) { return t.record.spent.size(); };
+    column(count);
+    columns(count, [](const StoredTake& t, std::size_t i) {
+      return part_number(t.record.spent[i].first);
+    });
+    // Often a part is a layer.
+    columns(count, [](const StoredTake& t, std::size_t i) {
+      return folded(difference(t.record.spent[i].second, size_of_layer(t, i)));
+    });
+  }
+
+  void pack_clips() {
+    const auto count = [](const StoredTake& t) -> std::size_t { return t.clip ? 1 : 0; };
+    column(count);
+    columns(count, [](const StoredTake& t, std::size_t) {
+      return static_cast<std::uint64_t>(t.clip->group);
+    });
+    columns(count, [](const StoredTake& t, std::size_t) {
+      return folded(difference(t.clip->bytes, size_of_layers(t)));
+    });
+    for (const StoredTake& take : takes_) {
+      if (take.clip) writer_.raw(address_bytes(take.clip->address));
+    }
+  }
+
+  static ShortDigest address_bytes(std::uint64_t address) {
+    ShortDigest bytes;
+    for (std::size_t b = 0; b < bytes.size(); ++b)
+      bytes[b] = static_cast<std::uint8_t>(address >> (56 - 8 * b));
+    return bytes;
+  }
+
+  void pack_texts() {
+    column([](const StoredTake& t) { return t.record.info.source_digest.size() / 2; });
+    for (const StoredTake& take : takes_)
+      writer_.raw(from_hexadecimal(take.record.info.source_digest));
+    std::string all;
+    for (std::size_t text = 0; text < 4; ++text) {
+      column([&](const StoredTake& t) { return texts_of(t.record.info)[text]->size(); });
+      for (const StoredTake& take : takes_) all += *texts_of(take.record.info)[text];
+    }
+    const Bytes frame = compress(bytes_of(all), true);
+    const bool smaller = frame.size() < all.size();
+    writer_.number(smaller ? 1 : 0);
+    writer_.raw(smaller ? std::span<const std::uint8_t>(frame) : bytes_of(all));
+  }
+
+  const std::vector<StoredTake>& takes_;
+  ColumnWriter writer_;
+};
+
+}  // namespace
+
+Bytes pack_block(const TakeBlock& block) { return Packer(block).pack(); }
+
+}  // namespace reprise

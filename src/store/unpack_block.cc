@@ -1,0 +1,224 @@
+// A block of takes out of its bytes; nothing in them is believed.
+#include <algorithm>
+#include <bit>
+
+#include "reprise/error.h"
+#include "store/block_columns.h"
+#include "store/compression.h"
+#include "store/number_columns.h"
+
+namespace reprise {
+namespace {
+
+/// Names, subjects, descriptions and tags of a block together (bytes).
+constexpr std::size_t most_texts = std::size_t{1} << 28;
+
+[[noreturn]] void throw_damaged() {
+  throw Error(ErrorCode::damaged, "the archive is damaged: a block of takes makes no sense");
+}
+
+class Unpacker {
+ public:
+  Unpacker(std::int64_t id, std::span<const std::uint8_t> bytes) : reader_(bytes) {
+    block_.id = id;
+  }
+
+  TakeBlock unpack() {
+    const std::uint64_t count = reader_.number();
+    if (count > TakeBlockLimits::takes) throw_damaged();
+    block_.takes.resize(count);
+    unpack_numbers();
+    unpack_errors();
+    unpack_layers();
+    unpack_spent();
+    unpack_clips();
+    unpack_texts();
+    return std::move(block_);
+  }
+
+ private:
+  std::vector<StoredTake>& takes() { return block_.takes; }
+
+  template <class Put>
+  void column(const Put& put) {
+    const std::vector<std::uint64_t> values = reader_.numbers(takes().size());
+    for (std::size_t i = 0; i < values.size(); ++i) put(takes()[i], values[i]);
+  }
+  /// How many numbers each take has of something that it has at most `most` of.
+  template <class Resize>
+  void counts(std::size_t most, const Resize& resize) {
+    column([&](StoredTake& take, std::uint64_t count) {
+      if (count > most) throw_damaged();
+      resize(take, static_cast<std::size_t>(count));
+    });
+  }
+  template <class Count, class Put>
+  void columns(const Count& count, const Put& put) {
+    std::size_t all = 0;
+    for (const StoredTake& take : takes()) all += count(take);
+    const std::vector<std::uint64_t> values = reader_.numbers(all);
+    std::size_t next = 0;
+    for (StoredTake& take : takes()) {
+      const std::size_t own = count(take);
+      for (std::size_t i = 0; i < own; ++i) put(take, i, values[next++]);
+    }
+  }
+
+  /// A number that must be below a bound, to be used as one of another type.
+  template <class Number>
+  static Number checked(std::uint64_t value, std::uint64_t most) {
+    if (value > most) throw_damaged();
+    return static_cast<Number>(value);
+  }
+
+  void unpack_numbers() {
+    constexpr std::uint64_t most_id = std::uint64_t{1} << 62, most_frames = std::uint64_t{1} << 40;
+    std::size_t next = 0;
+    column([&](StoredTake& take, std::uint64_t gap) {
+      take.slot = next + checked<std::size_t>(gap, TakeBlockLimits::takes);
+      if (take.slot >= TakeBlockLimits::takes) throw_damaged();
+      next = take.slot + 1;
+      take.record.info.id = block_.id_of(take);
+    });
+    column([&](StoredTake& t, std::uint64_t v) {
+      t.record.proportions = checked<std::int64_t>(v, most_id);
+    });
+    column([&](StoredTake& t, std::uint64_t v) {
+      t.record.space = checked<std::int64_t>(v, most_id);
+    });
+    column([&](StoredTake& t, std::uint64_t v) {
+      t.record.info.frames = checked<long>(v, most_frames);
+    });
+    column([&](StoredTake& t, std::uint64_t v) {
+      t.record.info.fidelity.tier = checked<FidelityTier>(v, 255);
+    });
+    column([&](StoredTake& t, std::uint64_t v) {
+      t.record.info.fidelity.limit_mm = std::bit_cast<double>(v);
+    });
+    column([&](StoredTake& t, std::uint64_t v) {
+      t.record.info.text_bytes = checked<std::uint64_t>(v, most_frames) *
+                                 static_cast<std::uint64_t>(std::max(1L, t.record.info.frames));
+    });
+    column([&](StoredTake& t, std::uint64_t v) { t.record.info.text_bytes += v; });
+  }
+
+  void unpack_errors() {
+    const auto error = [&](double PositionErrors::*member) {
+      column([member](StoredTake& t, std::uint64_t v) {
+        t.record.info.error_mm.*member = static_cast<double>(v) / 1000.0;
+      });
+    };
+    error(&PositionErrors::mean);
+    error(&PositionErrors::rms);
+    error(&PositionErrors::p99);
+    error(&PositionErrors::max);
+    std::size_t most = 0;
+    counts(TakeBlockLimits::quantiles, [&](StoredTake& take, std::size_t count) {
+      take.record.error_quantiles.resize(count);
+      most = std::max(most, count);
+    });
+    for (std::size_t q = 0; q < most; ++q) {
+      columns(
+          [&](const StoredTake& t) -> std::size_t {
+            return q < t.record.error_quantiles.size() ? 1 : 0;
+          },
+          [&](StoredTake& t, std::size_t, std::uint64_t v) {
+            const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
+            t.record.error_quantiles[q] =
+                static_cast<std::uint8_t>(before + static_cast<int>(v & 255));
+          });
+    }
+  }
+
+  void unpack_layers() {
+    counts(most_layers, [](StoredTake& take, std::size_t count) {
+      take.places.resize(count);
+      take.record.layers.resize(count);
+    });
+    const auto count = [](const StoredTake& t) { return t.places.size(); };
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      const auto kind = checked<LayerKind>(v, static_cast<std::uint64_t>(LayerKind::text));
+      if (kind < LayerKind::coefficients) throw_damaged();
+      t.record.layers[i].kind = kind;
+    });
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.record.layers[i].limit_mm = static_cast<double>(v) / 1000.0;
+    });
+    std::size_t offset = 0;
+    columns(count, [&](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.places[i].offset = offset;
+      t.places[i].size = checked<std::size_t>(v, std::uint64_t{1} << 32);
+      offset += t.places[i].size;
+    });
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.places[i].compressed = checked<bool>(v, 1);
+    });
+    for (StoredTake& take : takes()) {
+      for (LayerPlace& place : take.places) {
+        std::ranges::copy(reader_.raw(place.digest.size()), place.digest.begin());
+      }
+      take.record.info.payload_bytes = size_of_layers(take);
+    }
+  }
+
+  void unpack_spent() {
+    counts(TakeBlockLimits::parts,
+           [](StoredTake& take, std::size_t count) { take.record.spent.resize(count); });
+    const auto count = [](const StoredTake& t) { return t.record.spent.size(); };
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.record.spent[i].first = part_name(v);
+    });
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.record.spent[i].second = size_of_layer(t, i) + static_cast<std::uint64_t>(unfolded(v));
+    });
+  }
+
+  void unpack_clips() {
+    counts(1, [](StoredTake& take, std::size_t count) {
+      if (count == 1) take.clip.emplace();
+    });
+    const auto count = [](const StoredTake& t) -> std::size_t { return t.clip ? 1 : 0; };
+    columns(count, [](StoredTake& t, std::size_t, std::uint64_t v) {
+      t.clip->group = static_cast<std::int64_t>(v);
+    });
+    columns(count, [](StoredTake& t, std::size_t, std::uint64_t v) {
+      t.clip->bytes = size_of_layers(t) + static_cast<std::uint64_t>(unfolded(v));
+    });
+    for (StoredTake& take : takes()) {
+      if (!take.clip) continue;
+      for (const std::uint8_t byte : reader_.raw(sizeof take.clip->address))
+        take.clip->address = take.clip->address << 8 | byte;
+    }
+  }
+
+  void unpack_texts() {
+    std::vector<std::size_t> digest_sizes;
+    counts(Digest{}.size(), [&](StoredTake&, std::size_t count) { digest_sizes.push_back(count); });
+    for (std::size_t i = 0; i < takes().size(); ++i)
+      takes()[i].record.info.source_digest = hexadecimal(reader_.raw(digest_sizes[i]));
+    std::array<std::vector<std::uint64_t>, 4> sizes;
+    for (auto& column_of_sizes : sizes) column_of_sizes = reader_.numbers(takes().size());
+    const bool compressed = checked<bool>(reader_.number(), 1);
+    const std::span<const std::uint8_t> stored = reader_.rest();
+    const Bytes decompressed = compressed ? decompress(stored, most_texts) : Bytes();
+    ColumnReader texts(compressed ? std::span<const std::uint8_t>(decompressed) : stored);
+    for (std::size_t text = 0; text < sizes.size(); ++text) {
+      for (std::size_t i = 0; i < takes().size(); ++i) {
+        const auto bytes = texts.raw(checked<std::size_t>(sizes[text][i], most_texts));
+        texts_of(takes()[i].record.info)[text]->assign(bytes.begin(), bytes.end());
+      }
+    }
+    if (!texts.rest().empty()) throw_damaged();
+  }
+
+  TakeBlock block_;
+  ColumnReader reader_;
+};
+
+}  // namespace
+
+TakeBlock unpack_block(std::int64_t id, std::span<const std::uint8_t> bytes) {
+  return Unpacker(id, bytes).unpack();
+}
+
+}  // namespace reprise
