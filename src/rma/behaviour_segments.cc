@@ -1,0 +1,91 @@
+#include "rma/behaviour_segments.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace reprise {
+namespace {
+
+/// A Gaussian whose lesser axes all have the same variance.
+class ProbabilisticModel {
+ public:
+  ProbabilisticModel(const Eigen::Ref<const Eigen::MatrixXd>& samples, double share) {
+    mean_ = samples.colwise().mean();
+    const Eigen::MatrixXd centred = samples.rowwise() - mean_;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+        centred.transpose() * centred / static_cast<double>(samples.rows()));
+    axes_ = solver.eigenvectors().rowwise().reverse();
+    variance_ = solver.eigenvalues().reverse().cwiseMax(least_variance);
+    const double all = variance_.sum();
+    Eigen::Index kept = 0;
+    for (double covered = 0; kept < variance_.size() && covered < share * all; ++kept) {
+      covered += variance_[kept];
+    }
+    const Eigen::Index rest = variance_.size() - kept;
+    if (rest > 0) variance_.tail(rest).setConstant(variance_.tail(rest).mean());
+  }
+
+  double mean_squared_distance(const Eigen::Ref<const Eigen::MatrixXd>& samples) const {
+    const Eigen::MatrixXd on_axes = (samples.rowwise() - mean_) * axes_;
+    return (on_axes.array().square().rowwise() / variance_.transpose().array()).sum() /
+           static_cast<double>(samples.rows());
+  }
+
+ private:
+  /// mm^2: far below what capture resolves, so that a still model stays a model.
+  static constexpr double least_variance = 1e-2;
+  Eigen::RowVectorXd mean_;
+  Eigen::MatrixXd axes_;
+  Eigen::VectorXd variance_;
+};
+
+std::vector<long> forward_cuts(const Eigen::MatrixXd& samples, double rate,
+                               const SegmentConstants& constants) {
+  const auto samples_of = [&](double seconds) { return std::max(1L, std::lround(seconds * rate)); };
+  const long initial = samples_of(constants.initial_s), test = samples_of(constants.test_s);
+  const long step = samples_of(constants.step_s);
+  std::vector<long> cuts;
+  long start = 0, size = initial;
+  double valley = 0, peak = 0;
+  long peak_at = 0;
+  bool fresh = true;
+  for (; start + size + test <= samples.rows(); size += step) {
+    const ProbabilisticModel model(samples.middleRows(start, size), constants.variance_share);
+    const double height = model.mean_squared_distance(samples.middleRows(start + size, test));
+    if (fresh || height < valley) {
+      valley = peak = height;
+      fresh = false;
+    } else if (height > peak) {
+      peak = height;
+      peak_at = start + size;
+    } else if (peak - valley > constants.least_rise) {
+      cuts.push_back(peak_at);
+      start = peak_at;
+      size = initial - step;
+      fresh = true;
+    }
+  }
+  return cuts;
+}
+
+}  // namespace
+
+std::vector<long> behaviour_cuts(const PostureMatrix& projected, double rate,
+                                 const SegmentConstants& constants) {
+  const Eigen::MatrixXd samples = projected.cast<double>();
+  std::vector<long> cuts = forward_cuts(samples, rate, constants);
+  const Eigen::MatrixXd reversed = samples.colwise().reverse();
+  for (const long cut : forward_cuts(reversed, rate, constants)) {
+    cuts.push_back(samples.rows() - cut);
+  }
+  std::sort(cuts.begin(), cuts.end());
+  const long same = std::lround(constants.same_cut_s * rate);
+  std::vector<long> united;
+  for (const long cut : cuts) {
+    if (united.empty() || cut - united.back() >= same) united.push_back(cut);
+  }
+  return united;
+}
+
+}  // namespace reprise

@@ -1,0 +1,238 @@
+#include "rma/clip_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace reprise {
+namespace {
+
+double standard_deviation(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const double count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / count);
+}
+
+/// A primary and its repeats as they would be now.
+struct Proposal {
+  double gain = 0;
+  ChosenClip primary;
+  std::vector<ChosenClip> repeated;
+};
+
+class Chooser {
+ public:
+  Chooser(const PostureLibrary& library, const RepeatConstants& constants,
+          const ClipChoiceConstants& choice)
+      : library_(library),
+        least_(std::max(2L, std::lround(choice.least_s * constants.rate))),
+        least_primary_(std::max(2L, std::lround(choice.least_primary_s * constants.rate))) {
+    for (const PostureMatrix& take : library.postures) {
+      free_.emplace_back(static_cast<std::size_t>(take.rows()), true);
+    }
+  }
+
+  void choose(std::span<const RepeatGroup> groups) {
+    using Rank = std::pair<double, std::size_t>;  // gain; of equal ones the earlier group
+    const auto lower = [](const Rank& a, const Rank& b) {
+      return a.first != b.first ? a.first < b.first : a.second > b.second;
+    };
+    std::priority_queue<Rank, std::vector<Rank>, decltype(lower)> queue(lower);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (const auto proposal = propose(groups[g])) queue.emplace(proposal->gain, g);
+    }
+    while (!queue.empty()) {
+      const std::size_t g = queue.top().second;
+      queue.pop();
+      const auto proposal = propose(groups[g]);
+      if (!proposal) continue;
+      if (!queue.empty() && proposal->gain < queue.top().first) {
+        queue.emplace(proposal->gain, g);
+        continue;
+      }
+      accept(*proposal);
+      queue.emplace(0.0, g);  // what it has left over
+    }
+  }
+
+  std::vector<ChosenClip> finish() {
+    for (std::size_t take = 0; take < free_.size(); ++take) add_unique(take);
+    return in_order();
+  }
+
+ private:
+  /// The longest run of free samples in [begin, end), if it is long enough.
+  std::optional<std::pair<long, long>> free_run(std::size_t take, long begin, long end,
+                                                long least) const {
+    std::pair<long, long> best{0, 0};
+    for (long s = begin; s < end; ++s) {
+      if (!free_[take][static_cast<std::size_t>(s)]) continue;
+      const long first = s;
+      while (s < end && free_[take][static_cast<std::size_t>(s)]) ++s;
+      if (s - first > best.second - best.first) best = {first, s};
+    }
+    if (best.second - best.first < least) return std::nullopt;
+    return best;
+  }
+
+  std::optional<Proposal> propose(const RepeatGroup& group) const {
+    const Occurrence& reference = group.occurrences.front();
+    const auto run = free_run(reference.take, reference.begin, reference.end, least_primary_);
+    if (!run) return std::nullopt;
+    Proposal proposal;
+    proposal.primary = {reference.take, run->first, run->second, ClipRole::primary, 0, {}};
+    const PostureMatrix& own = library_.projected[reference.take];
+    double before = primary_cost(own, run->first, run->second), after = before;
+    long samples = 0;
+    for (std::size_t m = 1; m < group.occurrences.size(); ++m) {
+      auto clip = repeat_of(reference, *run, group.occurrences[m], proposal);
+      if (!clip) continue;
+      const PostureMatrix& take = library_.projected[clip->take];
+      const double alone = primary_cost(take, clip->begin, clip->end);
+      const double repeated = repeated_cost(take, clip->begin, clip->end, own, clip->reference);
+      if (repeated >= alone) continue;
+      before += alone;
+      after += repeated;
+      samples += clip->end - clip->begin;
+      proposal.repeated.push_back(std::move(*clip));
+    }
+    if (samples < run->second - run->first || after <= 0) return std::nullopt;
+    proposal.gain = before / after;
+    return proposal;
+  }
+
+  /// The free part of a member beside a part of its reference.
+  std::optional<ChosenClip> repeat_of(const Occurrence& reference,
+                                      const std::pair<long, long>& primary,
+                                      const Occurrence& member, const Proposal& proposal) const {
+    const auto at = [&](long sample) {
+      return member.map[static_cast<std::size_t>(sample - reference.begin)];
+    };
+    const auto run = free_run(member.take, at(primary.first), at(primary.second - 1) + 1, least_);
+    if (!run) return std::nullopt;
+    const auto overlaps = [&](const ChosenClip& clip) {
+      return clip.take == member.take && run->first < clip.end && clip.begin < run->second;
+    };
+    if (overlaps(proposal.primary) || std::ranges::any_of(proposal.repeated, overlaps)) {
+      return std::nullopt;
+    }
+    ChosenClip clip{member.take, run->first, run->second, ClipRole::repeated, 0, {}};
+    long sample = primary.first;
+    for (long s = clip.begin; s < clip.end; ++s) {
+      // The nearest sample of the primary whose image is not before this one.
+      while (sample + 1 < primary.second && at(sample) < s) ++sample;
+      clip.reference.push_back(sample);
+    }
+    return clip;
+  }
+
+  void accept(const Proposal& proposal) {
+    const std::size_t primary = clips_.size();
+    clips_.push_back(proposal.primary);
+    occupy(proposal.primary);
+    for (ChosenClip clip : proposal.repeated) {
+      clip.primary = primary;
+      occupy(clip);
+      clips_.push_back(std::move(clip));
+    }
+  }
+
+  void occupy(const ChosenClip& clip) {
+    for (long s = clip.begin; s < clip.end; ++s)
+      free_[clip.take][static_cast<std::size_t>(s)] = false;
+  }
+
+  /// What is left of a take becomes unique; bits that are too short go to the clip before, or to
+  /// the one after, where that is no primary: primaries are what others refer to.
+  void add_unique(std::size_t take) {
+    std::vector<std::size_t> here;
+    for (std::size_t c = 0; c < clips_.size(); ++c) {
+      if (clips_[c].take == take) here.push_back(c);
+    }
+    std::ranges::sort(here, {}, [&](std::size_t c) { return clips_[c].begin; });
+    long at = 0;
+    const long end = library_.postures[take].rows();
+    for (std::size_t i = 0; i <= here.size(); ++i) {
+      const long next = i < here.size() ? clips_[here[i]].begin : end;
+      if (next > at) fill_gap(take, at, next, i, here);
+      if (i < here.size()) at = clips_[here[i]].end;
+    }
+  }
+
+  void fill_gap(std::size_t take, long begin, long end, std::size_t position,
+                const std::vector<std::size_t>& here) {
+    const auto repeats = [&](std::size_t c) { return clips_[c].role == ClipRole::repeated; };
+    if (end - begin < least_ && position > 0 && repeats(here[position - 1])) {
+      ChosenClip& clip = clips_[here[position - 1]];
+      clip.reference.resize(static_cast<std::size_t>(end - clip.begin), clip.reference.back());
+      clip.end = end;
+    } else if (end - begin < least_ && position < here.size() && repeats(here[position])) {
+      ChosenClip& clip = clips_[here[position]];
+      clip.reference.insert(clip.reference.begin(), static_cast<std::size_t>(end - begin),
+                            clip.reference.front());
+      clip.begin = begin;
+    } else {
+      clips_.push_back({take, begin, end, ClipRole::unique, 0, {}});
+    }
+  }
+
+  /// By take and time, with the indices of primaries brought along.
+  std::vector<ChosenClip> in_order() const {
+    std::vector<std::size_t> order(clips_.size()), place(clips_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {},
+                      [&](std::size_t c) { return std::tuple(clips_[c].take, clips_[c].begin); });
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    std::vector<ChosenClip> clips;
+    for (const std::size_t c : order) {
+      clips.push_back(clips_[c]);
+      if (clips.back().role == ClipRole::repeated) clips.back().primary = place[clips_[c].primary];
+    }
+    return clips;
+  }
+
+  const PostureLibrary& library_;
+  long least_, least_primary_;
+  std::vector<std::vector<bool>> free_;
+  std::vector<ChosenClip> clips_;
+};
+
+}  // namespace
+
+double primary_cost(const PostureMatrix& take, long begin, long end) {
+  const long median = begin + (end - begin) / 2;
+  std::vector<double> distances;
+  for (long s = begin; s < end; ++s) {
+    distances.push_back((take.row(median) - take.row(s)).norm());
+  }
+  return standard_deviation(distances) * static_cast<double>(end - begin) +
+         (take.row(median) - take.row(0)).norm();
+}
+
+double repeated_cost(const PostureMatrix& take, long begin, long end, const PostureMatrix& other,
+                     std::span<const long> reference) {
+  std::vector<double> distances;
+  for (long s = begin; s < end; ++s) {
+    distances.push_back(
+        (other.row(reference[static_cast<std::size_t>(s - begin)]) - take.row(s)).norm());
+  }
+  return standard_deviation(distances) * static_cast<double>(end - begin);
+}
+
+std::vector<ChosenClip> choose_clips(const PostureLibrary& library,
+                                     std::span<const RepeatGroup> groups,
+                                     const RepeatConstants& constants,
+                                     const ClipChoiceConstants& choice) {
+  Chooser chooser(library, constants, choice);
+  chooser.choose(groups);
+  return chooser.finish();
+}
+
+}  // namespace reprise

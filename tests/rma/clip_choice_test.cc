@@ -1,0 +1,120 @@
+// Primary, repeated and unique clips.
+#include "rma/clip_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "query/near_windows.h"
+#include "rma/clip_extents.h"
+#include "rma/made_up_postures.h"
+
+namespace reprise {
+namespace {
+
+const RepeatConstants constants;
+
+/// A clip of 2 s at 3 s in take 0, at 2 s and half speed in take 1, at 4 s and 1.5 times in take 2.
+PostureLibrary planted_library() {
+  return PostureLibrary(
+      {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2), made_up_take(3, 0, 3)}),
+       joined({made_up_take(4, 0, 2), made_up_take(1, 0, 4, 0.5), made_up_take(5, 0, 2)}),
+       joined({made_up_take(6, 0, 4), made_up_take(1, 0, 4.0 / 3, 1.5), made_up_take(7, 0, 2)}),
+       made_up_take(8, 0, 8)},
+      constants);
+}
+
+std::vector<ChosenClip> clips_of(const PostureLibrary& library) {
+  const auto groups =
+      find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants);
+  return choose_clips(library, groups, constants);
+}
+
+TEST(ClipChoice, CoversEveryTakeOnce) {
+  const PostureLibrary library = planted_library();
+  std::vector<long> at(library.takes(), 0);
+  for (const ChosenClip& clip : clips_of(library)) {
+    EXPECT_EQ(clip.begin, at[clip.take]);
+    EXPECT_GT(clip.end, clip.begin);
+    at[clip.take] = clip.end;
+  }
+  for (std::size_t take = 0; take < library.takes(); ++take) {
+    EXPECT_EQ(at[take], library.postures[take].rows());
+  }
+}
+
+TEST(ClipChoice, FindsThePlantedClip) {
+  const std::vector<ChosenClip> clips = clips_of(planted_library());
+  const auto clip_at = [&](std::size_t take, long begin, long end) {
+    const auto found = std::ranges::find_if(clips, [&](const ChosenClip& c) {
+      return c.take == take && c.role != ClipRole::unique &&
+             overlap_ratio(c.begin, c.end, begin, end) >= 0.5;
+    });
+    return static_cast<std::size_t>(found - clips.begin());
+  };
+  const std::vector<std::size_t> planted = {clip_at(0, 45, 75), clip_at(1, 30, 90),
+                                            clip_at(2, 60, 80)};
+  std::size_t primaries = 0;
+  for (const std::size_t c : planted) {
+    ASSERT_LT(c, clips.size());
+    primaries += clips[c].role == ClipRole::primary ? 1 : 0;
+    if (clips[c].role == ClipRole::repeated) {
+      EXPECT_TRUE(std::ranges::count(planted, clips[c].primary) == 1);
+    }
+  }
+  EXPECT_EQ(primaries, 1u);
+}
+
+TEST(ClipChoice, RepeatedClipsKnowWhichSampleIsBesideEach) {
+  const std::vector<ChosenClip> clips = clips_of(planted_library());
+  std::size_t repeated = 0;
+  for (const ChosenClip& clip : clips) {
+    if (clip.role != ClipRole::repeated) continue;
+    ++repeated;
+    const ChosenClip& primary = clips[clip.primary];
+    EXPECT_EQ(primary.role, ClipRole::primary);
+    ASSERT_EQ(clip.reference.size(), static_cast<std::size_t>(clip.end - clip.begin));
+    EXPECT_TRUE(std::ranges::is_sorted(clip.reference));
+    EXPECT_GE(clip.reference.front(), primary.begin);
+    EXPECT_LT(clip.reference.back(), primary.end);
+  }
+  EXPECT_GE(repeated, 2u);
+}
+
+TEST(ClipChoice, RepeatsHaveAtLeastAsManySamplesAsTheirPrimary) {
+  const std::vector<ChosenClip> clips = clips_of(planted_library());
+  std::map<std::size_t, long> samples;
+  for (const ChosenClip& clip : clips) {
+    if (clip.role == ClipRole::repeated) samples[clip.primary] += clip.end - clip.begin;
+  }
+  for (std::size_t c = 0; c < clips.size(); ++c) {
+    if (clips[c].role == ClipRole::primary) {
+      EXPECT_GE(samples[c], clips[c].end - clips[c].begin);
+    }
+  }
+}
+
+TEST(ClipChoice, WithoutRepeatsTakesAreUnique) {
+  const PostureLibrary library({made_up_take(1, 0, 4), PostureMatrix(0, 12)}, constants);
+  const std::vector<ChosenClip> clips = choose_clips(library, {}, constants);
+  ASSERT_EQ(clips.size(), 1u);
+  EXPECT_EQ(clips[0].role, ClipRole::unique);
+  EXPECT_EQ(clips[0].end, 60);
+}
+
+TEST(ClipCosts, AreDeviationsTimesLength) {
+  // One coordinate: 0 0 3 0 5; clip [1, 4) has its median sample at 2, distances 3, 0, 3.
+  PostureMatrix take(5, 1);
+  take << 0, 0, 3, 0, 5;
+  const double deviation = std::sqrt(2.0);
+  EXPECT_NEAR(primary_cost(take, 1, 4), 3 * deviation + 3, 1e-6);
+  PostureMatrix other(3, 1);
+  other << 1, 1, 1;
+  const std::vector<long> reference = {0, 1, 2};
+  // Distances 1, 2, 1.
+  EXPECT_NEAR(repeated_cost(take, 1, 4, other, reference), 3 * std::sqrt(2.0 / 9), 1e-6);
+}
+
+}  // namespace
+}  // namespace reprise
