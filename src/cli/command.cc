@@ -6,6 +6,7 @@
 #include "cli/info_command.h"
 #include "cli/ingest_command.h"
 #include "cli/list_command.h"
+#include "cli/plot_command.h"
 #include "cli/remove_command.h"
 #include "cli/repeats_command.h"
 #include "cli/search_command.h"
@@ -23,6 +24,7 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   commands.push_back(std::make_unique<ExtractCommand>());
   commands.push_back(std::make_unique<SearchCommand>());
   commands.push_back(std::make_unique<RepeatsCommand>());
+  commands.push_back(std::make_unique<PlotCommand>());
   commands.push_back(std::make_unique<StatsCommand>());
   commands.push_back(std::make_unique<CompareCommand>());
   commands.push_back(std::make_unique<VerifyCommand>());
