@@ -252,6 +252,8 @@ class Archive {
   /// The source file's bytes, of a take that is stored as `exact` (usage otherwise). An AMC's ASF
   /// is its skeleton's source_text.
   std::string source_text(const TakeInfo& take) const;
+  /// A take's skeleton, without decoding its motion. Throws Error (damaged).
+  std::shared_ptr<const Skeleton> skeleton(const TakeInfo& take) const;
 
   /// Where motion recurs, across the takes of each skeleton: groups of two occurrences or more,
   /// those that explain most first. Throws Error (damaged; usage where `frames` are not in the take

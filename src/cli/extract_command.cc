@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <memory>
 
 #include "cli/interruption.h"
 #include "cli/json_output.h"
@@ -21,11 +22,10 @@ class MotionWriter {
   explicit MotionWriter(bool overwrite) : overwrite_(overwrite) {}
 
   /// Returns the files written, the motion (`text`) first.
-  std::vector<fs::path> write(const Take& take, const std::string& text, const fs::path& target) {
+  std::vector<fs::path> write(const Skeleton& skeleton, const std::string& text,
+                              const fs::path& target) {
     std::vector<fs::path> files{target};
-    if (take.skeleton->format == MotionFormat::asf_amc) {
-      files.push_back(write_skeleton(*take.skeleton, target));
-    }
+    if (skeleton.format == MotionFormat::asf_amc) files.push_back(write_skeleton(skeleton, target));
     write_file_atomically(target, text, overwrite_);
     return files;
   }
@@ -81,18 +81,23 @@ bool is_whole(const PlannedExtract& entry) {
   return entry.frames.begin == 0 && entry.frames.end == entry.take.frames;
 }
 
-Take decode(const Archive& archive, const PlannedExtract& entry,
-            std::optional<FidelityTier> fidelity) {
-  if (is_whole(entry)) return archive.extract(entry.take, fidelity);
-  return archive.extract(entry.take, entry.frames, fidelity);
-}
+/// What is written of a take.
+struct MotionText {
+  std::string text;
+  std::shared_ptr<const Skeleton> skeleton;
+};
 
-/// The file's text: the source's own where it is stored and asked for, whole.
-std::string text_of(const Archive& archive, const PlannedExtract& entry, const Take& take,
-                    std::optional<FidelityTier> fidelity) {
+/// The source's own text where it is stored and asked for, whole: its numbers are not looked at.
+MotionText motion_text(const Archive& archive, const PlannedExtract& entry,
+                       std::optional<FidelityTier> fidelity) {
   const bool exact = entry.take.fidelity.tier == FidelityTier::exact &&
                      fidelity.value_or(FidelityTier::exact) == FidelityTier::exact;
-  return exact && is_whole(entry) ? archive.source_text(entry.take) : write_motion(take);
+  if (exact && is_whole(entry)) {
+    return {archive.source_text(entry.take), archive.skeleton(entry.take)};
+  }
+  const Take take = is_whole(entry) ? archive.extract(entry.take, fidelity)
+                                    : archive.extract(entry.take, entry.frames, fidelity);
+  return {write_motion(take), take.skeleton};
 }
 
 /// The paths of all motion files, each checked to be inside `folder` and, unless `overwrite`, not
@@ -163,8 +168,7 @@ ExitCode ExtractCommand::run(Console& console) {
   const Archive archive(archive_);
   const std::vector<PlannedExtract> plan = plan_extract(archive, request_);
   if (file_ == "-") {
-    const Take take = decode(archive, plan.front(), request_.fidelity);
-    console.bytes(text_of(archive, plan.front(), take, request_.fidelity));
+    console.bytes(motion_text(archive, plan.front(), request_.fidelity).text);
     return exit_done;
   }
   std::vector<fs::path> targets;
@@ -181,10 +185,9 @@ ExitCode ExtractCommand::run(Console& console) {
   for (std::size_t i = 0; i < plan.size(); ++i) {
     InterruptionGuard::check();
     bar.show({i, plan.size(), plan[i].take.name});
-    const Take take = decode(archive, plan[i], request_.fidelity);
-    const std::string text = text_of(archive, plan[i], take, request_.fidelity);
+    const MotionText motion = motion_text(archive, plan[i], request_.fidelity);
     if (!folder_.empty()) fs::create_directories(targets[i].parent_path());
-    const std::vector<fs::path> files = writer.write(take, text, targets[i]);
+    const std::vector<fs::path> files = writer.write(*motion.skeleton, motion.text, targets[i]);
     for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
     entries.push_back(entry_of(plan[i], files));
   }

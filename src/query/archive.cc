@@ -150,6 +150,11 @@ std::string Archive::source_text(const TakeInfo& info) const {
   return decode_source_text(*impl_, impl_->store.take(info.id));
 }
 
+std::shared_ptr<const Skeleton> Archive::skeleton(const TakeInfo& info) const {
+  const TakeRecord record = impl_->store.take(info.id);
+  return empty_take(impl_->proportions(record.proportions), info.format).skeleton;
+}
+
 Take Archive::extract(const TakeInfo& info, FrameRange frames,
                       std::optional<FidelityTier> tier) const {
   if (frames.begin < 0 || frames.begin >= frames.end || frames.end > info.frames) {

@@ -42,7 +42,7 @@ ChannelMatrix parsed_channels(const Take& empty, const std::string& text, const 
 }
 
 ChannelMatrix channels_of(OpenArchive& archive, const TakeRecord& record, const Take& empty,
-                          std::size_t index) {
+                          std::size_t index, std::string* text) {
   const LayerRecord& layer = record.layers[index];
   const Bytes data = archive.store.layer(record.info.id, index);
   const TakeShape shape{record.info.frames, record.info.frame_rate};
@@ -51,8 +51,12 @@ ChannelMatrix channels_of(OpenArchive& archive, const TakeRecord& record, const 
       return decode_take(archive.space(record.space), *empty.skeleton, shape, data);
     case LayerKind::refinement:
       return decode_refinement(*empty.skeleton, shape, data);
-    case LayerKind::text:
-      return parsed_channels(empty, decode_text(data, known_text(empty)), record.info.name);
+    case LayerKind::text: {
+      std::string decoded = decode_text(data, known_text(empty));
+      ChannelMatrix channels = parsed_channels(empty, decoded, record.info.name);
+      if (text != nullptr) *text = std::move(decoded);
+      return channels;
+    }
   }
   throw Error(ErrorCode::damaged, "the archive is damaged: a layer is of no known kind");
 }
@@ -69,10 +73,11 @@ std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier) 
                                     "; it cannot be extracted as " + tier_name(*tier));
 }
 
-Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer) {
+Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer,
+                  std::string* text) {
   Take take = empty_take(archive.proportions(record.proportions), record.info.format);
   take.name = record.info.name;
-  take.channels = channels_of(archive, record, take, layer);
+  take.channels = channels_of(archive, record, take, layer, text);
   if (take.frames() != record.info.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
                                         "' has another number of frames than was stored");

@@ -12,8 +12,10 @@ namespace reprise {
 /// where none does.
 std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier);
 
-/// A take as one of its layers has it. Throws Error (damaged).
-Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer);
+/// A take as one of its layers has it; where that layer is a text and `text` is given, it is put
+/// there, so that nothing is decoded twice. Throws Error (damaged).
+Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer,
+                  std::string* text = nullptr);
 
 /// The source file's bytes. Throws Error (usage) where they are not stored, damaged.
 std::string decode_source_text(OpenArchive& archive, const TakeRecord& record);

@@ -55,10 +55,11 @@ class TakeCheck {
     std::optional<Take> original;
     if (source != nullptr) original = read_motion_file(*source, read);
     for (std::size_t i = 0; i < record_.layers.size(); ++i) {
-      const Take decoded = decode_layer(archive_, record_, i);
+      std::string text;
+      const Take decoded = decode_layer(archive_, record_, i, &text);
       if (!decoded.channels.allFinite()) note("it decodes to numbers that are not finite", false);
       if (original) compare(*original, decoded, record_.layers[i]);
-      if (record_.layers[i].kind == LayerKind::text) check_text(decoded, source);
+      if (record_.layers[i].kind == LayerKind::text) check_text(decoded, text, source);
     }
     return std::move(damaged_);
   }
@@ -88,8 +89,7 @@ class TakeCheck {
   }
 
   /// The digest that was taken of the source tells whether its bytes come back.
-  void check_text(const Take& decoded, const fs::path* source) {
-    const std::string text = decode_source_text(archive_, record_);
+  void check_text(const Take& decoded, const std::string& text, const fs::path* source) {
     Hasher hasher;
     hasher.add(text);
     if (decoded.skeleton->format == MotionFormat::asf_amc) {
