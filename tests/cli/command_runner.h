@@ -58,6 +58,10 @@ class CommandTest : public testing::Test {
 
   /// synth into `takes/` and ingest into `lib.rpz`: four short takes of two subjects.
   void make_library(const std::string& format = "bvh") const;
+  /// `synth takes SYNTH...`, `ingest lib.rpz takes INGEST...`. Each is done once for a built
+  /// command and copied from then on, so that tests which only need a library do not pay for it.
+  void make_library(const std::vector<std::string>& synth,
+                    const std::vector<std::string>& ingest) const;
   /// Names of the takes of lib.rpz.
   std::vector<std::string> take_names(const std::string& archive = "lib.rpz") const;
   std::string content_digest(const std::string& archive = "lib.rpz") const;

@@ -15,7 +15,7 @@ namespace {
 class InterruptionTest : public CommandTest {
  protected:
   InterruptionTest() {
-    output({"synth", "takes", "--takes", "10", "--seconds", "4", "--subjects", "2"});
+    output({"synth", "takes", "--takes", "10", "--seconds", "2", "--subjects", "2"});
     const auto start = std::chrono::steady_clock::now();
     output({"ingest", "whole.rpz", "takes", "--jobs", "2"});
     duration_ = std::chrono::steady_clock::now() - start;

@@ -11,8 +11,7 @@ using nlohmann::json;
 class RepeatsCommandTest : public CommandTest {
  protected:
   void SetUp() override {
-    output({"synth", "takes", "--takes", "8", "--seconds", "10", "--subjects", "2"});
-    output({"ingest", "lib.rpz", "takes", "--fidelity", "preview", "--quiet"});
+    make_library({"--takes", "8", "--seconds", "10", "--subjects", "2"}, {"--fidelity", "preview"});
   }
 
   static std::string stem(const std::string& path) {
@@ -83,16 +82,19 @@ TEST_F(RepeatsCommandTest, APartOfATakeIsTheFirstOfItsGroup) {
 
 TEST_F(RepeatsCommandTest, FiltersHold) {
   const std::string take = take_names()[0];
-  for (const json& group : document({"repeats", "lib.rpz", take})["groups"]) {
+  const json of_take = document({"repeats", "lib.rpz", take})["groups"];
+  for (const json& group : of_take) {
     EXPECT_TRUE(std::ranges::any_of(group["occurrences"],
                                     [&](const json& o) { return o["take"] == take; }));
   }
-  for (const json& group : document({"repeats", "lib.rpz", "--across-subjects"})["groups"]) {
+  const json across = document({"repeats", "lib.rpz", "--across-subjects"})["groups"];
+  for (const json& group : across) {
     EXPECT_TRUE(std::ranges::any_of(group["occurrences"], [&](const json& o) {
       return o["subject"] != group["occurrences"][0]["subject"];
     }));
   }
-  for (const json& group : document({"repeats", "lib.rpz", "--min-seconds", "1.5"})["groups"]) {
+  const json long_ones = document({"repeats", "lib.rpz", "--min-seconds", "1.5"})["groups"];
+  for (const json& group : long_ones) {
     for (const json& o : group["occurrences"]) {
       EXPECT_GE(o["end"].get<double>() - o["start"].get<double>(), 1.5);
     }

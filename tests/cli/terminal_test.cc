@@ -1,4 +1,8 @@
 // What a terminal gets, and only a terminal: progress and bold headings.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
 #include "cli/command_runner.h"
 
 namespace reprise::cli {
@@ -21,6 +25,9 @@ class TerminalTest : public CommandTest {
   void SetUp() override {
     const Outcome outcome = RunningCommand(folder(), {"sh", "-c", "command -v script"}).wait();
     if (outcome.exit_code != 0) GTEST_SKIP() << "script(1) is not installed";
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0) GTEST_SKIP() << "this system gives no pseudo-terminal (is devpts mounted?)";
+    close(terminal);
   }
 };
 

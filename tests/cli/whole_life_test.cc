@@ -34,7 +34,7 @@ TEST_P(WholeLifeTest, IntoTheArchiveAndBack) {
 TEST_P(WholeLifeTest, RemovedTakesAreGoneAndTheirSpaceComesBack) {
   // Enough takes that those removed fill whole pages.
   output({"synth", "many", "--takes", "40", "--seconds", "2", "--format", GetParam()});
-  output({"ingest", "lib.rpz", "many"});
+  output({"ingest", "lib.rpz", "many", "--fidelity", "preview"});
   const auto names = take_names();
   const std::string kept = output({"extract", "lib.rpz", names[39], "-o", "-"});
   std::vector<std::string> arguments = {"remove", "lib.rpz"};
