@@ -14,14 +14,14 @@ namespace {
 constexpr std::uint64_t most_takes = 100000;
 constexpr std::uint64_t most_subjects = 10000;
 constexpr double least_seconds = 1;
-constexpr double most_seconds = 3600;
+constexpr double longest_take_seconds = 3600;
 
 }  // namespace
 
 void SynthCommand::setup(CLI::App& app) {
   add_path(app, "DIR", folder_, "The folder to write, with truth.json", "")->required();
   add_whole_number(app, "--takes", options_.takes, 1, most_takes, "Number of takes (default 24)");
-  add_number(app, "--seconds", options_.seconds, least_seconds, most_seconds,
+  add_number(app, "--seconds", options_.seconds, least_seconds, longest_take_seconds,
              "Mean length of a take (default 12)");
   add_whole_number(app, "--subjects", options_.subjects, 1, most_subjects,
                    "Number of subjects (default 4)");
