@@ -89,12 +89,12 @@ ArchiveStore::Impl::OpenBlock& ArchiveStore::Impl::open_block() {
 }
 
 void ArchiveStore::Impl::write_block(const TakeBlock& block, const Bytes& data) {
-  if (block.takes.empty()) {
-    prepare("DELETE FROM blocks WHERE id=?").bind(block.id).run();
-    return;
-  }
+  // Replacing a row takes new pages before it frees those of the old one, which then stay in the
+  // file unused.
+  prepare("DELETE FROM blocks WHERE id=?").bind(block.id).run();
+  if (block.takes.empty()) return;
   const Bytes takes = pack_block(block);
-  prepare("INSERT OR REPLACE INTO blocks(id, takes, digest, data) VALUES(?,?,?,?)")
+  prepare("INSERT INTO blocks(id, takes, digest, data) VALUES(?,?,?,?)")
       .bind(block.id)
       .bind(takes)
       .bind(block_digest(block.id, takes))

@@ -16,7 +16,7 @@ struct TakeBlockLimits {
   static constexpr std::size_t takes = 64;
   /// A block of so many bytes of coded motion takes no further take: what is damaged together, and
   /// rewritten when a take is added, stays small.
-  static constexpr std::size_t open_bytes = 1u << 15;
+  static constexpr std::size_t open_bytes = 1u << 17;
   static constexpr std::size_t parts = 16;      ///< of `spent`
   static constexpr std::size_t quantiles = 64;  ///< bytes of a sketch
 };

@@ -102,6 +102,22 @@ TEST_F(ArchiveStoreTest, NothingStaysWhereAllTakesAreRemoved) {
   EXPECT_TRUE(store.check_structure().empty());
 }
 
+TEST_F(ArchiveStoreTest, AddingInManyStepsLeavesNoUnusedPages) {
+  {
+    ArchiveStore store = ArchiveStore::open_for_writing(path_);
+    Ground ground;
+    for (int i = 0; i < 12; ++i) {
+      store.begin();
+      if (i == 0) ground = lay_ground(store);
+      add_sample(store, ground, i);
+      store.commit();
+    }
+  }
+  const auto size = fs::file_size(path_);
+  ArchiveStore::open_for_writing(path_).compact();
+  EXPECT_EQ(fs::file_size(path_), size);
+}
+
 TEST_F(ArchiveStoreTest, OneWriterAtATime) {
   make_sample(path_, 1);
   const ArchiveStore writer = ArchiveStore::open_for_writing(path_);

@@ -129,7 +129,7 @@ TEST_F(Damage, RowsThatWereChangedAreErrors) {
         "UPDATE proportions SET frame_rate=60", "UPDATE proportions SET id=9",
         "UPDATE skeletons SET channels=channels+1", "UPDATE spaces SET data=x'28b52ffd'"}) {
     fs::remove(path_);
-    make_sample(path_, 40);
+    make_sample(path_, 70);  // fills more than one block
     run_sql(sql);
     EXPECT_EQ(code_when_opened(path_), ErrorCode::damaged) << sql;
   }
