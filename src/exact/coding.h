@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "quant/bit_model.h"
+#include "exact/context_mixing.h"
 #include "quant/numbers.h"
 #include "quant/range_coder.h"
 
@@ -28,12 +28,19 @@ class Writing {
     counter.update(value);
     return value;
   }
-  bool bit(BitMixer& mixer, const BitMixer::Contexts& contexts, bool value) {
-    mixer.encode(coder_, contexts, value);
+  template <std::size_t inputs>
+  bool bit(MixedDecision<inputs> decision, bool value) {
+    coder_.encode(value, decision.predict());
+    decision.update(value);
     return value;
   }
   std::uint32_t uniform(std::uint32_t value, std::uint32_t total) {
     coder_.encode_uniform(value, total);
+    return value;
+  }
+  /// At most 16 bits that are as likely as any others.
+  std::uint32_t bits(std::uint32_t value, int count) {
+    coder_.encode_bits(value, count);
     return value;
   }
   std::uint32_t number(std::uint32_t value) {
@@ -57,10 +64,14 @@ class Reading {
     counter.update(value);
     return value;
   }
-  bool bit(BitMixer& mixer, const BitMixer::Contexts& contexts, bool) {
-    return mixer.decode(coder_, contexts);
+  template <std::size_t inputs>
+  bool bit(MixedDecision<inputs> decision, bool) {
+    const bool value = coder_.decode(decision.predict());
+    decision.update(value);
+    return value;
   }
   std::uint32_t uniform(std::uint32_t, std::uint32_t total) { return coder_.decode_uniform(total); }
+  std::uint32_t bits(std::uint32_t, int count) { return coder_.decode_bits(count); }
   std::uint32_t number(std::uint32_t) { return decode_number(coder_); }
   /// Whether so much was read that no encoder can have written it.
   bool at_end() const { return coder_.bytes_past_end() > most_past_end; }

@@ -98,6 +98,20 @@ bool is_number(std::string_view word) {
   return i < word.size() && std::all_of(word.begin() + i, word.end(), is_digit);
 }
 
+std::int64_t approximate_value(std::string_view word, int decimals) {
+  if (!is_number(word)) return 0;
+  const auto decimal = take_apart(word);
+  if (!decimal) return 0;
+  std::uint64_t magnitude = decimal->digits;
+  for (int e = std::clamp(decimal->exponent + decimals, -20, 20); e != 0; e += e < 0 ? 1 : -1) {
+    magnitude = e < 0 ? magnitude / 10 : magnitude * 10;
+    if (magnitude >= static_cast<std::uint64_t>(NumberGrid::most_magnitude) && e > 0) return 0;
+  }
+  if (magnitude >= static_cast<std::uint64_t>(NumberGrid::most_magnitude)) return 0;
+  const auto wide = static_cast<std::int64_t>(magnitude);
+  return decimal->negative ? -wide : wide;
+}
+
 NumberPrinter::NumberPrinter(const NumberFormat& format)
     : format_(format),
       // Of numbers with more digits than a magnitude has, `fine` holds the rest at any magnitude.

@@ -66,6 +66,9 @@ class NumberPrinter {
 /// Whether a word is a number at all: digits with at most one point and one exponent.
 bool is_number(std::string_view word);
 
+/// A word in units of 10^-decimals, rounded towards zero; 0 for what is no number, or too large.
+std::int64_t approximate_value(std::string_view word, int decimals);
+
 /// A signed value from an index, and the way back (to the nearest number of the grid).
 inline std::int64_t magnitude_of(const NumberGrid& grid, std::int64_t index) {
   return grid.magnitude_of(index < 0 ? ~index : index);

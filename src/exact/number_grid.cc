@@ -1,5 +1,6 @@
 #include "exact/number_grid.h"
 
+#include <bit>
 #include <cassert>
 
 namespace reprise {
@@ -54,12 +55,25 @@ NumberGrid::NumberGrid(GridKind kind, int decimals, int digits) {
       if (magnitude >= std::int64_t{1} << single_bits) add(magnitude, one, single_bits - p);
     }
   }
+  for (int width = 1; width < 63; ++width) {
+    const std::int64_t least = std::int64_t{1} << (width - 1);
+    for (int r = 1; r < range_count_; ++r) {
+      if (ranges_[r].magnitude <= least) first_by_magnitude_[width] = static_cast<std::uint8_t>(r);
+      if (ranges_[r].index <= least) first_by_index_[width] = static_cast<std::uint8_t>(r);
+    }
+  }
   most_index_ = index_of(most_magnitude);
 }
 
 const NumberGrid::Range& NumberGrid::range_of_magnitude(std::int64_t magnitude) const {
-  int r = 0;
+  int r = first_by_magnitude_[std::bit_width(static_cast<std::uint64_t>(magnitude))];
   while (r + 1 < range_count_ && magnitude >= ranges_[r + 1].magnitude) ++r;
+  return ranges_[r];
+}
+
+const NumberGrid::Range& NumberGrid::range_of_index(std::int64_t index) const {
+  int r = first_by_index_[std::bit_width(static_cast<std::uint64_t>(index))];
+  while (r + 1 < range_count_ && index >= ranges_[r + 1].index) ++r;
   return ranges_[r];
 }
 
@@ -77,9 +91,7 @@ std::int64_t NumberGrid::index_of(std::int64_t magnitude) const {
 
 std::int64_t NumberGrid::magnitude_of(std::int64_t index) const {
   if (index < 0 || index >= most_index_) return 0;
-  int r = 0;
-  while (r + 1 < range_count_ && index >= ranges_[r + 1].index) ++r;
-  const Range& range = ranges_[r];
+  const Range& range = range_of_index(index);
   return range.magnitude + rounded_shift((index - range.index) * range.step, range.shift);
 }
 

@@ -42,9 +42,12 @@ class NumberGrid {
   static constexpr int most_ranges = 20;
 
   const Range& range_of_magnitude(std::int64_t magnitude) const;
+  const Range& range_of_index(std::int64_t index) const;
 
   std::array<Range, most_ranges> ranges_{};
   int range_count_ = 1;
+  /// The range in which the numbers of each width in bits begin.
+  std::array<std::uint8_t, 64> first_by_magnitude_{}, first_by_index_{};
   std::int64_t most_index_ = most_magnitude;
 };
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "exact/column_references.h"
+
 namespace reprise {
 namespace {
 
@@ -168,6 +170,8 @@ NumberTable read_numbers(const std::vector<std::string_view>& words, std::size_t
     if (i < columns) column.first = table.numbers[i];
   }
   find_twins(table);
+  const auto references = find_references(table);
+  for (std::size_t c = 0; c < columns; ++c) table.columns[c].references = references[c];
   return table;
 }
 

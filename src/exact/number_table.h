@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "exact/adaptive_prediction.h"
 #include "exact/number_format.h"
 
 namespace reprise {
@@ -15,7 +16,9 @@ struct NumberColumn {
   bool constant = false;    ///< every number is `first`
   bool escapes = false;     ///< some numbers are kept as text, since the format does not give them
   std::uint32_t twin = 0;   ///< 0, or 1 + an earlier column that mostly has the same numbers
-  CodedNumber first;        ///< of constant columns
+  ColumnReferences references{};  ///< of columns that are neither constant nor twins
+  std::int64_t start = 0;         ///< what the first value may be like
+  CodedNumber first;              ///< of constant columns
 };
 
 struct NumberTable {

@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <array>
 #include <memory>
 #include <new>
 
@@ -13,6 +14,8 @@ namespace {
 constexpr int level = 19;
 constexpr int rough_level = 3;
 constexpr int most_window_log = 27;
+/// What every frame starts with; it is left out.
+constexpr std::array<std::uint8_t, 4> magic = {0x28, 0xb5, 0x2f, 0xfd};
 
 struct Free {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
@@ -27,6 +30,7 @@ std::vector<std::uint8_t> compress(ZSTD_CCtx* context, std::string_view text) {
       ZSTD_compress2(context, frame.data(), frame.size(), text.data(), text.size());
   if (ZSTD_isError(size)) throw std::bad_alloc();
   frame.resize(size);
+  frame.erase(frame.begin(), frame.begin() + magic.size());
   return frame;
 }
 
@@ -62,14 +66,19 @@ std::string decompress_plain(std::span<const std::uint8_t> frame, std::string_vi
   ZSTD_DCtx_refPrefix(context.get(), prefix.data(), prefix.size());
   std::string text;
   std::vector<char> piece(ZSTD_DStreamOutSize());
-  ZSTD_inBuffer in{frame.data(), frame.size(), 0};
-  for (;;) {
+  ZSTD_inBuffer in{magic.data(), magic.size(), 0};
+  for (bool body = false;;) {
     ZSTD_outBuffer out{piece.data(), piece.size(), 0};
     const std::size_t left = ZSTD_decompressStream(context.get(), &out, &in);
     if (ZSTD_isError(left)) throw_damaged(ZSTD_getErrorName(left));
     if (out.pos > most - text.size()) throw_damaged("it is longer than it says");
     text.append(piece.data(), out.pos);
     if (left == 0) break;
+    if (in.pos == in.size && !body) {
+      in = {frame.data(), frame.size(), 0};
+      body = true;
+      continue;
+    }
     if (in.pos == in.size && out.pos < out.size) throw_damaged("it ends too early");
   }
   if (in.pos != in.size) throw_damaged("bytes follow its end");

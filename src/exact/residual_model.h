@@ -15,8 +15,7 @@ inline int log4_of(std::uint64_t value) {
   if (value < 2) return 0;
   const int width = static_cast<int>(std::bit_width(value)) - 1;
   const auto top = static_cast<unsigned>(width >= 3 ? value >> (width - 3) : value << (3 - width));
-  constexpr std::array<std::uint8_t, 8> quarters = {0, 0, 1, 1, 2, 2, 3, 3};
-  return 4 * width + quarters[top & 7];
+  return 4 * width + static_cast<int>((top & 7) >> 1);
 }
 
 /// What a channel's residuals were like; units of its values.
@@ -24,7 +23,6 @@ struct ResidualHistory {
   std::int64_t fast = 0;  ///< means of their magnitudes, times 16
   std::int64_t slow = 0;
   std::array<std::uint8_t, 2> widths{};  ///< of the last ones, in steps of the grid
-  std::uint8_t sign = 0;                 ///< of the last one: 0 none, 1 positive, 2 negative
 
   void update(std::int64_t magnitude) {
     constexpr int fast_rate = 2, slow_rate = 5;
@@ -34,12 +32,16 @@ struct ResidualHistory {
   }
 };
 
+/// A residual's magnitude has a width in bits, coded upwards or downwards from the width of those
+/// before; its highest bit below the leading one is coded, too, and the rest and the sign are
+/// plain.
 class ResidualModel {
  public:
   explicit ResidualModel(std::size_t channels)
-      : mixer_(std::array<std::size_t, 5>{128 * nodes, widths * activities * nodes,
-                                          8 * 8 * 4 * nodes, 8 * widths * nodes, channels * nodes},
-               nodes * 4) {}
+      : rows_(first_state(widths * activities)),
+        lasts_(first_state(8 * 8 * 4)),
+        channels_(first_state(channels)),
+        weights_(nodes * 4) {}
 
   /// A new frame begins.
   void begin_frame() { activity_ = activity_ * 3 / 4; }
@@ -49,85 +51,101 @@ class ResidualModel {
   std::int64_t code(Coding& coding, std::size_t channel, ResidualHistory& history, int log_step,
                     std::int64_t residual);
 
-  BitMixer& mixer() { return mixer_; }
-
  private:
   static constexpr int nodes = 16;
-  static constexpr int widths = 48;
+  static constexpr int center = 7;  ///< the node of the expected width
+  static constexpr int widths = 44;
   static constexpr int activities = 8;
   static constexpr int most_width = 43;
+  static constexpr std::size_t inputs = 3;
 
-  BitMixer mixer_;
-  std::array<BitCounter, 9> signs_;
+  /// Counters start with how widths of motion are distributed on average (all three sets), so
+  /// that short takes lose little until theirs are known.
+  static std::vector<BitCounter> first_state(std::size_t contexts) {
+    constexpr std::array<std::uint16_t, nodes> usual = {30000, 30000, 30000, 30000, 30000, 30000,
+                                                        30000, 41000, 41000, 29000, 16400, 10000,
+                                                        20000, 20000, 20000, 20000};
+    constexpr std::uint16_t sure = 4;
+    std::vector<BitCounter> counters(contexts * nodes);
+    for (std::size_t i = 0; i < counters.size(); ++i) counters[i] = {usual[i % nodes], sure};
+    return counters;
+  }
+
+  template <class Coding>
+  int code_width(Coding& coding, std::array<BitCounter*, inputs> contexts, int expected, int given);
+  template <class Coding>
+  std::int64_t code_below(Coding& coding, int width, int around, std::int64_t residual);
+
+  std::vector<BitCounter> rows_, lasts_, channels_;
+  std::vector<MixingWeights<inputs>> weights_;
   std::array<BitCounter, widths * 8> first_bits_;
-  std::array<BitCounter, widths * 16> second_bits_;
   int activity_ = 0;  ///< how much wider this frame's residuals are than expected, in 1/16 bit
 };
 
 template <class Coding>
 std::int64_t ResidualModel::code(Coding& coding, std::size_t channel, ResidualHistory& history,
                                  int log_step, std::int64_t residual) {
-  // Histories are in 1/16 units, so that 16 is 4 x 4 too much; a width is one more than a log.
-  const int fast = log4_of(static_cast<std::uint64_t>(history.fast));
-  const int slow = log4_of(static_cast<std::uint64_t>(history.slow));
-  const int scale = std::clamp(
-      log4_of(static_cast<std::uint64_t>(history.fast + history.slow) / 2) - 8 - log_step, 0, 127);
-  const int expected = std::min(scale / 4, widths - 1);
-  const int small = std::min(expected, 3);
+  // Means are times 16: 4 x 4 in quarters of a bit.
+  const int scale =
+      log4_of(static_cast<std::uint64_t>(history.fast + history.slow) / 2) - 16 - log_step;
+  const int expected = std::clamp(scale / 4, 0, widths - 1);
   const int activity = std::clamp((activity_ + 72) / 18, 0, activities - 1);
-  const auto relative = [&](int width) { return std::clamp(width - expected + 5, 0, 7); };
-  const int change = std::clamp((fast - slow) / 3 + 4, 0, 7);
-  const auto context = static_cast<std::uint32_t>(
-      (relative(history.widths[0]) * 8 + relative(history.widths[1])) * 4 + small);
-  BitMixer::Contexts contexts;
-  const auto wider = [&](int width, bool is) {
-    const auto node = static_cast<std::uint32_t>(std::clamp(width - expected + 7, 0, nodes - 1));
-    contexts.counter = {static_cast<std::uint32_t>(scale) * nodes + node,
-                        static_cast<std::uint32_t>(expected * activities + activity) * nodes + node,
-                        context * nodes + node,
-                        static_cast<std::uint32_t>(change * widths + expected) * nodes + node,
-                        static_cast<std::uint32_t>(channel) * nodes + node};
-    contexts.weights = node * 4 + static_cast<std::uint32_t>(small);
-    return coding.bit(mixer_, contexts, is);
-  };
-
-  const std::uint64_t magnitude = static_cast<std::uint64_t>(residual < 0 ? -residual : residual);
-  const int given = static_cast<int>(std::bit_width(magnitude));
-  int width = std::max(expected, 1);
-  if (wider(width, given >= width)) {
-    while (width < most_width && wider(width + 1, given > width)) ++width;
-  } else {
-    --width;
-    while (width > 0 && !wider(width, given >= width)) --width;
-  }
+  const auto relative = [&](int width) { return std::clamp(width - expected + 3, 0, 7); };
+  const int lasts =
+      (relative(history.widths[0]) * 8 + relative(history.widths[1])) * 4 + std::min(expected, 3);
+  const std::array<BitCounter*, inputs> contexts = {
+      &rows_[static_cast<std::size_t>((expected * activities + activity) * nodes)],
+      &lasts_[static_cast<std::size_t>(lasts * nodes)], &channels_[channel * nodes]};
+  const auto magnitude = static_cast<std::uint64_t>(residual < 0 ? -residual : residual);
+  const int width =
+      code_width(coding, contexts, expected, static_cast<int>(std::bit_width(magnitude)));
   activity_ += ((width - expected) * 16 - activity_) / 8;
   history.widths = {static_cast<std::uint8_t>(width), history.widths[0]};
-  if (width == 0) {
-    history.sign = 0;
-    return 0;
+  if (width == 0) return 0;
+  return code_below(coding, width, std::clamp(width - expected + 2, 0, 7), residual);
+}
+
+template <class Coding>
+int ResidualModel::code_width(Coding& coding, std::array<BitCounter*, inputs> contexts,
+                              int expected, int given) {
+  const int small = std::min(expected, 3);
+  const auto at_least = [&](int width) {
+    const int node = std::clamp(width - expected + center, 0, nodes - 1);
+    MixedDecision<inputs> decision;
+    for (std::size_t i = 0; i < inputs; ++i) decision.counters[i] = contexts[i] + node;
+    decision.weights = &weights_[static_cast<std::size_t>(node * 4 + small)];
+    return coding.bit(decision, given >= width);
+  };
+  int width = std::max(expected, 1);
+  if (at_least(width)) {
+    while (width < most_width && at_least(width + 1)) ++width;
+    return width;
   }
-  const bool negative = coding.bit(signs_[history.sign], residual < 0);
-  history.sign = negative ? 2 : 1;
+  --width;
+  while (width > 0 && !at_least(width)) --width;
+  return width;
+}
+
+template <class Coding>
+std::int64_t ResidualModel::code_below(Coding& coding, int width, int around,
+                                       std::int64_t residual) {
+  const auto magnitude = static_cast<std::uint64_t>(residual < 0 ? -residual : residual);
   std::uint64_t value = 1;
   int rest = width - 1;
-  const int around = std::clamp(width - expected + 4, 0, 7);
   if (rest > 0) {
     --rest;
     value = value << 1 | coding.bit(first_bits_[width * 8 + around], (magnitude >> rest & 1) != 0);
   }
-  if (rest > 0) {
-    --rest;
-    value = value << 1 | coding.bit(second_bits_[(width * 8 + around) * 2 + (value & 1)],
-                                    (magnitude >> rest & 1) != 0);
-  }
-  while (rest > 0) {
+  // The sign is the lowest of the plain bits.
+  const std::uint64_t plain = magnitude << 1 | (residual < 0 ? 1 : 0);
+  for (++rest; rest > 0;) {
     const int count = std::min(rest, 16);
     rest -= count;
-    const auto part = static_cast<std::uint32_t>(magnitude >> rest & ((1u << count) - 1));
-    value = value << count | coding.uniform(part, 1u << count);
+    const auto part = static_cast<std::uint32_t>(plain >> rest & ((1u << count) - 1));
+    value = value << count | coding.bits(part, count);
   }
-  const auto wide = static_cast<std::int64_t>(value);
-  return negative ? -wide : wide;
+  const auto wide = static_cast<std::int64_t>(value >> 1);
+  return (value & 1) != 0 ? -wide : wide;
 }
 
 }  // namespace reprise

@@ -8,9 +8,9 @@ namespace reprise {
 
 /// Codes formats and columns; reading starts from a table with as many columns, and throws Error
 /// (damaged) for what no encoder writes.
-void encode_table_header(RangeEncoder& encoder, const NumberTable& table,
-                         const std::vector<CodedNumber>& usual);
+void encode_table_header(RangeEncoder& encoder, NumberTable& table,
+                         const std::vector<std::string_view>& starts);
 void decode_table_header(RangeDecoder& decoder, NumberTable& table,
-                         const std::vector<CodedNumber>& usual);
+                         const std::vector<std::string_view>& starts);
 
 }  // namespace reprise

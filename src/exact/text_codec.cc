@@ -4,6 +4,7 @@
 #include <cassert>
 #include <optional>
 
+#include "exact/expected_starts.h"
 #include "exact/number_coder.h"
 #include "exact/plain_frame.h"
 #include "exact/table_header.h"
@@ -69,23 +70,18 @@ std::string text_beside_numbers(const TextLayout& layout, const NumberTable& tab
   return text;
 }
 
-const LinearPrediction& prediction_of(const TextModel& model, std::size_t columns) {
-  static const LinearPrediction none;
-  return model.prediction.terms.size() == columns ? model.prediction : none;
-}
-
 /// Nothing, where the text has no frames of numbers.
 std::optional<std::vector<std::uint8_t>> encode_numbers(std::string_view text,
-                                                        const TextModel& model) {
+                                                        std::string_view known_text) {
   const TextLayout layout = read_layout(text);
   if (layout.slots == 0 || layout.slots > most_columns) return std::nullopt;
   NumberTable table = read_numbers(layout.numbers, layout.slots);
   if (table.numbers.empty()) return std::nullopt;
   RangeEncoder encoder;
-  encode_table_header(encoder, table, model.usual);
+  encode_table_header(encoder, table, expected_starts(known_text));
   Writing coding(encoder);
   coding.number(static_cast<std::uint32_t>(layout.cut));
-  NumberCoder coder(table, prediction_of(model, layout.slots));
+  NumberCoder coder(table);
   RowKinds kinds;
   std::vector<std::uint8_t> escaped(layout.slots);
   std::size_t next = 0;
@@ -104,7 +100,7 @@ std::optional<std::vector<std::uint8_t>> encode_numbers(std::string_view text,
   coding.bit(kinds.odd, false);
 
   std::vector<std::uint8_t> coded = {Mode::numbers};
-  const auto beside = compress_plain(text_beside_numbers(layout, table), model.sample);
+  const auto beside = compress_plain(text_beside_numbers(layout, table), {});
   append_length(coded, beside.size());
   coded.insert(coded.end(), beside.begin(), beside.end());
   const auto bits = encoder.finish();
@@ -131,8 +127,8 @@ class Strings {
 class NumbersDecoder {
  public:
   NumbersDecoder(std::span<const std::uint8_t> bits, std::string_view beside,
-                 const TextModel& model)
-      : decoder_(bits), coding_(decoder_), strings_(beside), model_(model) {}
+                 std::string_view known_text)
+      : decoder_(bits), coding_(decoder_), strings_(beside), starts_(expected_starts(known_text)) {}
 
   void append_to(std::string& text) {
     text.append(strings_.next());
@@ -140,9 +136,9 @@ class NumbersDecoder {
     NumberTable table;
     if (pieces.size() - 1 > most_columns) throw_damaged("it has too many columns");
     table.columns.resize(pieces.size() - 1);
-    decode_table_header(decoder_, table, model_.usual);
+    decode_table_header(decoder_, table, starts_);
     const std::size_t cut = coding_.number(0);
-    NumberCoder coder(table, prediction_of(model_, table.columns.size()));
+    NumberCoder coder(table);
     prepare(coder, pieces);
     std::vector<CodedNumber> numbers(table.columns.size());
     std::vector<std::uint8_t> escaped(table.columns.size());
@@ -202,34 +198,32 @@ class NumbersDecoder {
   RangeDecoder decoder_;
   Reading coding_;
   Strings strings_;
-  const TextModel& model_;
+  std::vector<std::string_view> starts_;
   std::vector<Piece> pieces_;
   std::string end_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text,
-                                      const TextModel& model) {
+std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text) {
   const bool follows = text.starts_with(known_text);
   const std::string_view rest = follows ? text.substr(known_text.size()) : text;
   const std::uint8_t flags = follows ? follows_known : 0;
-  auto coded = encode_numbers(rest, model);
+  auto coded = encode_numbers(rest, known_text);
   if (coded) {
     coded->front() |= flags;
-    if (decode_text(*coded, known_text, model) != text) coded.reset();
+    if (decode_text(*coded, known_text) != text) coded.reset();
   }
   if (coded && coded->size() * 2 < rough_plain_size(rest)) return std::move(*coded);
   std::vector<std::uint8_t> plainly = {static_cast<std::uint8_t>(Mode::plain | flags)};
   const auto frame = compress_plain(rest, {});
   plainly.insert(plainly.end(), frame.begin(), frame.end());
   if (coded && coded->size() < plainly.size()) return std::move(*coded);
-  assert(decode_text(plainly, known_text, model) == text);
+  assert(decode_text(plainly, known_text) == text);
   return plainly;
 }
 
-std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
-                        const TextModel& model) {
+std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text) {
   if (coded.empty()) throw_damaged("it is empty");
   const std::uint8_t mode = coded.front() & mode_mask;
   if ((coded.front() & ~(mode_mask | follows_known)) != 0) throw_damaged("it is of no known kind");
@@ -241,8 +235,8 @@ std::string decode_text(std::span<const std::uint8_t> coded, std::string_view kn
   } else if (mode == Mode::numbers) {
     const std::size_t length = take_length(rest);
     if (length > rest.size()) throw_damaged("it ends too early");
-    const std::string beside = decompress_plain(rest.first(length), model.sample, most_text);
-    NumbersDecoder(rest.subspan(length), beside, model).append_to(text);
+    const std::string beside = decompress_plain(rest.first(length), {}, most_text);
+    NumbersDecoder(rest.subspan(length), beside, known_text).append_to(text);
   } else {
     throw_damaged("it is of no known kind");
   }

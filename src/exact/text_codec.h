@@ -8,20 +8,16 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/text_model.h"
-
 namespace reprise {
 
 /// Codes any bytes. `known_text` is what the decoder has already: of a BVH the text before the
-/// line MOTION. The result was decoded and compared, and is at most one byte larger than the
-/// text as a zstd frame of level 19.
-std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text,
-                                      const TextModel& model = {});
+/// line MOTION. The result was decoded and compared, and is never larger than the text
+/// as a zstd frame of level 19.
+std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text);
 
-/// The bytes again, given the same `known_text` and model. Throws Error (damaged) for anything
+/// The bytes again, given the same `known_text`. Throws Error (damaged) for anything
 /// that `encode_text` did not write, where it can be told; memory grows with what is decoded, and
 /// not with what the bytes claim.
-std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
-                        const TextModel& model = {});
+std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text);
 
 }  // namespace reprise

@@ -6,55 +6,6 @@
 namespace reprise {
 namespace {
 
-/// Logits have 8 bits after the point and are cut at 11: a probability of 1 in 60,000.
-constexpr int logit_one = 256;
-constexpr int logit_limit = 11 * logit_one;
-constexpr int weight_one = 65536;
-constexpr int least_probability = 24;
-
-/// e^x by its series, in basic operations alone, which every compiler rounds alike.
-constexpr double exponential(double x) {
-  constexpr int halvings = 6;
-  double sum = 1, term = 1;
-  const double small = x / (1 << halvings);
-  for (int n = 1; n < 20; ++n) sum += (term *= small / n);
-  for (int i = 0; i < halvings; ++i) sum *= sum;
-  return sum;
-}
-
-constexpr auto make_squash_table() {
-  std::array<std::uint16_t, 2 * logit_limit + 1> table{};
-  for (int x = -logit_limit; x <= logit_limit; ++x) {
-    const double p = 65536.0 / (1.0 + exponential(-static_cast<double>(x) / logit_one));
-    table[x + logit_limit] = static_cast<std::uint16_t>(
-        std::clamp(static_cast<int>(p + 0.5), least_probability, 65536 - least_probability));
-  }
-  return table;
-}
-constexpr auto squash_table = make_squash_table();
-
-constexpr int squash(int logit) {
-  return squash_table[std::clamp(logit, -logit_limit, logit_limit) + logit_limit];
-}
-
-constexpr auto make_stretch_table() {
-  std::array<std::int16_t, 4096> table{};
-  int logit = -logit_limit;
-  for (int i = 0; i < 4096; ++i) {
-    while (logit < logit_limit && squash(logit) < i * 16 + 8) ++logit;
-    table[i] = static_cast<std::int16_t>(logit);
-  }
-  return table;
-}
-constexpr auto stretch_table = make_stretch_table();
-
-constexpr auto make_rate_table() {
-  std::array<std::int32_t, BitModelConstants::count_limit + 1> table{};
-  for (int n = 0; n <= BitModelConstants::count_limit; ++n) table[n] = 2 * 65536 / (2 * n + 3);
-  return table;
-}
-constexpr auto rate_table = make_rate_table();
-
 /// Costs of a bit of probability p in 1/65536 bit, by p / 16: log2 by repeated squaring.
 constexpr auto make_cost_table() {
   std::array<std::uint32_t, 4096> table{};
@@ -80,13 +31,6 @@ constexpr auto cost_table = make_cost_table();
 
 }  // namespace
 
-void BitCounter::update(bool bit) {
-  const std::int32_t target = bit ? 65535 : 0;
-  const std::int64_t step = static_cast<std::int64_t>(target - probability) * rate_table[count];
-  probability = static_cast<std::uint16_t>(probability + (step >> 16));
-  if (count < BitModelConstants::count_limit) ++count;
-}
-
 BitMixer::BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets)
     : weights_(weight_sets * BitModelConstants::inputs, weight_one * 3 / 10) {
   assert(table_sizes.size() == BitModelConstants::inputs);
@@ -97,7 +41,7 @@ Probability BitMixer::predict(const Contexts& contexts) {
   const std::int32_t* weight = &weights_[contexts.weights * BitModelConstants::inputs];
   std::int64_t dot = 0;
   for (int i = 0; i < BitModelConstants::inputs; ++i) {
-    stretched_[i] = stretch_table[tables_[i][contexts.counter[i]].probability >> 4];
+    stretched_[i] = stretch(tables_[i][contexts.counter[i]].probability);
     dot += static_cast<std::int64_t>(weight[i]) * stretched_[i];
   }
   const auto logit =
@@ -193,7 +137,7 @@ void code_prior(Tables& tables, std::vector<std::int32_t>& weights, CodeBit&& co
       seen[history & 3].update(used);
       history = history << 1 | used;
       if (!used) continue;
-      const int logit = stretch_table[counter.probability >> 4];
+      const int logit = stretch(counter.probability);
       const int rounded = (logit + logit_limit + prior_logit_step / 2) / prior_logit_step;
       const auto stored = logits.code(static_cast<std::uint32_t>(rounded), code_bit);
       const auto sure = counts.code(

@@ -7,26 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "quant/logit_tables.h"
 #include "quant/range_coder.h"
 
 namespace reprise {
-
-/// What one context has seen: a probability of a 1, and how sure it is of it.
-struct BitCounter {
-  std::uint16_t probability = 1u << 15;
-  std::uint16_t count = 0;
-
-  void update(bool bit);
-};
-
-/// How fast counters and mixers learn; docs/findings/2026-11-24-preview-coder.md has what was
-/// tried.
-struct BitModelConstants {
-  static constexpr int count_limit = 255;   ///< slowest rate of a counter: 1 / (limit + 1.5)
-  static constexpr int trained_count = 12;  ///< how sure a counter from a prior is at most
-  static constexpr int mixer_rate = 6;
-  static constexpr int inputs = 5;  ///< contexts of one decision
-};
 
 /// A set of contexts and mixing weights. A decision names one counter of each of `inputs` tables,
 /// and a set of weights.

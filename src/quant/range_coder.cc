@@ -5,26 +5,20 @@
 namespace reprise {
 namespace {
 
-constexpr std::uint32_t least_range = 1u << 24;
 /// So that a decoder which wants many more bytes than there are knows that something is wrong.
 constexpr int most_left_out = 8;
-
-/// The part of the range that stands for a 1.
-std::uint32_t split(std::uint32_t range, Probability one) {
-  return (range >> probability_bits) * one;
-}
 
 }  // namespace
 
 void RangeEncoder::encode(bool bit, Probability one) {
-  const std::uint32_t bound = split(range_, one);
+  const std::uint32_t bound = part_of_range(range_, one);
   if (bit) {
     range_ = bound;
   } else {
     low_ += bound;
     range_ -= bound;
   }
-  while (range_ < least_range) {
+  while (range_ < least_coder_range) {
     range_ <<= 8;
     shift_low();
   }
@@ -37,7 +31,16 @@ void RangeEncoder::encode_plain(std::uint32_t value, int count) {
 void RangeEncoder::encode_uniform(std::uint32_t value, std::uint32_t total) {
   range_ /= total;
   low_ += static_cast<std::uint64_t>(range_) * value;
-  while (range_ < least_range) {
+  while (range_ < least_coder_range) {
+    range_ <<= 8;
+    shift_low();
+  }
+}
+
+void RangeEncoder::encode_bits(std::uint32_t value, int count) {
+  range_ >>= count;
+  low_ += static_cast<std::uint64_t>(range_) * value;
+  while (range_ < least_coder_range) {
     range_ <<= 8;
     shift_low();
   }
@@ -75,50 +78,6 @@ std::vector<std::uint8_t> RangeEncoder::finish() {
     bytes_.pop_back();
   }
   return std::move(bytes_);
-}
-
-RangeDecoder::RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
-  for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next_byte();
-}
-
-std::uint8_t RangeDecoder::next_byte() {
-  if (position_ < bytes_.size()) return bytes_[position_++];
-  ++past_end_;
-  return 0;
-}
-
-bool RangeDecoder::decode(Probability one) {
-  const std::uint32_t bound = split(range_, one);
-  const bool bit = code_ < bound;
-  if (bit) {
-    range_ = bound;
-  } else {
-    code_ -= bound;
-    range_ -= bound;
-  }
-  while (range_ < least_range) {
-    range_ <<= 8;
-    code_ = code_ << 8 | next_byte();
-  }
-  return bit;
-}
-
-std::uint32_t RangeDecoder::decode_plain(int count) {
-  std::uint32_t value = 0;
-  for (int b = 0; b < count; ++b) value = value << 1 | decode(1u << (probability_bits - 1));
-  return value;
-}
-
-std::uint32_t RangeDecoder::decode_uniform(std::uint32_t total) {
-  range_ /= total;
-  // Only what no encoder wrote is past the last of the numbers.
-  const std::uint32_t value = std::min(code_ / range_, total - 1);
-  code_ -= value * range_;
-  while (range_ < least_range) {
-    range_ <<= 8;
-    code_ = code_ << 8 | next_byte();
-  }
-  return value;
 }
 
 }  // namespace reprise

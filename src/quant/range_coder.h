@@ -1,6 +1,7 @@
 // Binary range coding: integers only, so that every build reads what any build wrote.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,13 @@ namespace reprise {
 using Probability = std::uint32_t;
 constexpr int probability_bits = 16;
 
+/// What a range is kept above, byte by byte.
+constexpr std::uint32_t least_coder_range = 1u << 24;
+/// The part of the range that stands for a 1.
+constexpr std::uint32_t part_of_range(std::uint32_t range, Probability one) {
+  return (range >> probability_bits) * one;
+}
+
 class RangeEncoder {
  public:
   void encode(bool bit, Probability one);
@@ -18,6 +26,8 @@ class RangeEncoder {
   void encode_plain(std::uint32_t value, int count);
   /// One of `total` (at most 2^16) numbers that are all as likely.
   void encode_uniform(std::uint32_t value, std::uint32_t total);
+  /// At most 16 bits at one half each, in one step.
+  void encode_bits(std::uint32_t value, int count);
   /// Ends the stream. Up to eight trailing zero bytes are left out: the decoder reads zeros past
   /// the end.
   std::vector<std::uint8_t> finish();
@@ -38,6 +48,7 @@ class RangeDecoder {
   bool decode(Probability one);
   std::uint32_t decode_plain(int count);
   std::uint32_t decode_uniform(std::uint32_t total);
+  std::uint32_t decode_bits(int count);
   /// How many bytes past the end were asked for: more than a few, and the stream is not one of
   /// ours.
   std::size_t bytes_past_end() const { return past_end_; }
@@ -51,5 +62,61 @@ class RangeDecoder {
   std::uint32_t range_ = 0xffffffff;
   std::uint32_t code_ = 0;
 };
+
+inline RangeDecoder::RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
+  for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next_byte();
+}
+
+inline std::uint8_t RangeDecoder::next_byte() {
+  if (position_ < bytes_.size()) return bytes_[position_++];
+  ++past_end_;
+  return 0;
+}
+
+inline bool RangeDecoder::decode(Probability one) {
+  const std::uint32_t bound = part_of_range(range_, one);
+  const bool bit = code_ < bound;
+  if (bit) {
+    range_ = bound;
+  } else {
+    code_ -= bound;
+    range_ -= bound;
+  }
+  while (range_ < least_coder_range) {
+    range_ <<= 8;
+    code_ = code_ << 8 | next_byte();
+  }
+  return bit;
+}
+
+inline std::uint32_t RangeDecoder::decode_plain(int count) {
+  std::uint32_t value = 0;
+  for (int b = 0; b < count; ++b) value = value << 1 | decode(1u << (probability_bits - 1));
+  return value;
+}
+
+inline std::uint32_t RangeDecoder::decode_bits(int count) {
+  range_ >>= count;
+  // Only what no encoder wrote is past the last of the numbers.
+  const std::uint32_t value = std::min(code_ / range_, (1u << count) - 1);
+  code_ -= value * range_;
+  while (range_ < least_coder_range) {
+    range_ <<= 8;
+    code_ = code_ << 8 | next_byte();
+  }
+  return value;
+}
+
+inline std::uint32_t RangeDecoder::decode_uniform(std::uint32_t total) {
+  range_ /= total;
+  // Only what no encoder wrote is past the last of the numbers.
+  const std::uint32_t value = std::min(code_ / range_, total - 1);
+  code_ -= value * range_;
+  while (range_ < least_coder_range) {
+    range_ <<= 8;
+    code_ = code_ << 8 | next_byte();
+  }
+  return value;
+}
 
 }  // namespace reprise
