@@ -165,6 +165,7 @@ struct IngestOptions {
   std::string prefix;                             ///< put before the names of this ingest, with '/'
   bool replace = false;
   bool dry_run = false;
+  bool contacts = true;  ///< feet are held where they stand, in the coarsest layer
 };
 
 struct RejectedInput {

@@ -203,7 +203,7 @@ class Ingest {
       FittedTake fitted = assignment.fitted
                               ? *assignment.fitted
                               : fit_take(assignment.space->space, assignment.space->model, take,
-                                         coarse_mean_mm(options_.fidelity));
+                                         fit_options(options_));
       coded.kept = fitted.kept;
       if (!coded.kept) return coded;
       coded.record = make_record(

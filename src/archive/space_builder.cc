@@ -156,7 +156,7 @@ std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& spac
       chosen.size(), options_.jobs,
       [&](std::size_t c) {
         const Take take = read_again((*takes_)[chosen[c]], options_.read);
-        return fit_take(space, model, take, coarse_mean_mm(options_.fidelity));
+        return fit_take(space, model, take, fit_options(options_));
       },
       [&](std::size_t c, FittedTake fitted) {
         if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));

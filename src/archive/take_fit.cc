@@ -11,16 +11,19 @@ namespace {
 class StepSearch {
  public:
   StepSearch(const CoefficientSpace& space, const KnotModel& model, const Take& take,
-             double mean_mm)
+             const FitOptions& options)
       : space_(space),
         model_(model),
         take_(take),
-        allowed_(mean_mm * (1.0 - FitConstants::margin)),
+        allowed_(options.mean_mm * (1.0 - FitConstants::margin)),
         positions_(joint_positions(*take.skeleton, take.channels)) {
     MarkedTake marked = mark_take(space.layout, take);
     TrajectoryMatrix trajectories = to_trajectories(space, take, marked);
     choose_kinds({take.frames(), take.frame_rate}, marked.root.tumbles, trajectories);
     find_switches();
+    if (options.contacts) {
+      contacts_ = find_contacts(find_legs(space.layout.reference), positions_, take.frame_rate);
+    }
   }
 
   /// The coarsest step that keeps the mean, by the error's near proportion to the step.
@@ -67,24 +70,24 @@ class StepSearch {
     }
   }
 
-  ChannelMatrix decode(int step, const QuantisedKnots& quantised) const {
-    return to_channels(space_, *take_.skeleton, knots_.tumbles,
-                       dequantise(quantised, knots_.shape, step), switches_);
+  ChannelMatrix decode(const CodedMotion& motion) const {
+    return motion_channels(space_, *take_.skeleton, {take_.frames(), take_.frame_rate}, motion);
   }
 
   void find_switches() {
     const int step = first_guess();
-    switches_ =
-        find_branch_switches(space_, take_, decode(step, quantise(model_, knots_, step).knots));
+    const CodedMotion motion{
+        knots_.tumbles, step, kinds_, {}, quantise(model_, knots_, step).knots, {}};
+    switches_ = find_branch_switches(space_, take_, decode(motion));
   }
 
   FittedTake measure(int step) const {
     FittedTake tried;
     tried.shape = knots_.shape;
     tried.shape.step_half_octaves = half_octaves(step);
-    tried.motion = {knots_.tumbles, step, kinds_, switches_, quantise(model_, knots_, step).knots};
-    const PositionMatrix decoded =
-        joint_positions(*take_.skeleton, decode(step, tried.motion.knots));
+    tried.motion = {knots_.tumbles, step, kinds_, switches_, quantise(model_, knots_, step).knots,
+                    contacts_};
+    const PositionMatrix decoded = joint_positions(*take_.skeleton, decode(tried.motion));
     tried.distances = joint_distances(positions_, decoded);
     double sum = 0;
     for (const float distance : tried.distances) sum += distance;
@@ -101,6 +104,7 @@ class StepSearch {
   TakeKnots knots_;
   CurveKinds kinds_;
   std::vector<BranchSwitch> switches_;
+  std::vector<ContactInterval> contacts_;
 };
 
 }  // namespace
@@ -124,9 +128,13 @@ double coarse_mean_mm(const Fidelity& fidelity) {
                                                 : FidelityLimits::preview_mean_mm;
 }
 
+FitOptions fit_options(const IngestOptions& options) {
+  return {coarse_mean_mm(options.fidelity), options.contacts};
+}
+
 FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
-                    double mean_mm) {
-  FittedTake fitted = StepSearch(space, model, take, mean_mm).run();
+                    const FitOptions& options) {
+  FittedTake fitted = StepSearch(space, model, take, options).run();
   if (fitted.kept) fitted.errors = summarise_distances(fitted.distances);
   return fitted;
 }

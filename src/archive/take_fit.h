@@ -34,8 +34,15 @@ double residual_mm(const CoefficientSpace& space, const MarkerMatrix& markers);
 /// The mean error (mm) that the coarsest layer of a take keeps, whatever the layers above it bring.
 double coarse_mean_mm(const Fidelity& fidelity);
 
+struct FitOptions {
+  double mean_mm = FidelityLimits::preview_mean_mm;
+  bool contacts = true;  ///< feet are held where they stand
+};
+/// What an ingest asks of its takes' coarsest layers.
+FitOptions fit_options(const IngestOptions& options);
+
 /// `model` is where the contexts of the space's takes start.
 FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
-                    double mean_mm);
+                    const FitOptions& options);
 
 }  // namespace reprise

@@ -19,8 +19,14 @@ class LayerMaker {
   LayerMaker(const CodedSpace& space, const Take& take) : space_(space), take_(take) {}
 
   void add_coefficients(FittedTake fitted, double mean_mm) {
-    add(LayerKind::coefficients, mean_mm, "curves",
-        encode_motion(space_.model, fitted.shape, fitted.motion));
+    const TakeShape shape{take_.frames(), take_.frame_rate};
+    Bytes data = encode_motion(space_.model, space_.space, shape, fitted.motion);
+    const std::size_t all = data.size();
+    fitted.motion.contacts.clear();
+    const std::size_t curves =
+        std::min(all, encode_motion(space_.model, space_.space, shape, fitted.motion).size());
+    add(LayerKind::coefficients, mean_mm, {{"curves", curves}, {"contacts", all - curves}},
+        std::move(data));
     made_.errors = fitted.errors;
     made_.distances = std::move(fitted.distances);
   }
@@ -45,7 +51,14 @@ class LayerMaker {
 
  private:
   void add(LayerKind kind, double limit_mm, const char* part, Bytes data) {
-    made_.spent.emplace_back(part, data.size());
+    const std::size_t size = data.size();
+    add(kind, limit_mm, {{part, size}}, std::move(data));
+  }
+  void add(LayerKind kind, double limit_mm,
+           const std::vector<std::pair<std::string, std::uint64_t>>& parts, Bytes data) {
+    for (const auto& part : parts) {
+      if (part.second > 0) made_.spent.push_back(part);
+    }
     made_.layers.push_back({kind, limit_mm, std::move(data)});
   }
 

@@ -81,10 +81,15 @@ Matrix3d local_rotation(const Joint& joint, std::span<const double> channels) {
 
 void forward_kinematics(const Skeleton& skeleton, std::span<const double> channels,
                         std::span<JointFrame> joints) {
+  forward_kinematics_from(skeleton, 0, channels, joints);
+}
+
+void forward_kinematics_from(const Skeleton& skeleton, std::size_t first,
+                             std::span<const double> channels, std::span<JointFrame> joints) {
   assert(channels.size() == static_cast<std::size_t>(skeleton.channel_count));
   assert(joints.size() == skeleton.joints.size());
   const JointFrame world{Matrix3d::Identity(), Vector3d::Zero()};
-  for (std::size_t j = 0; j < joints.size(); ++j) {
+  for (std::size_t j = first; j < joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     joints[j] =
         place_joint(skeleton, joint, channels, joint.parent < 0 ? world : joints[joint.parent]);

@@ -31,8 +31,7 @@ double percentile(const std::vector<Number>& sorted, double p) {
          static_cast<double>(sorted[above]) * part;
 }
 
-bool is_foot(const std::string& name) {
-  std::string lower = name;
+bool names_foot(std::string lower) {
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return lower.find("foot") != std::string::npos || lower.find("toe") != std::string::npos ||
          lower.find("ankle") != std::string::npos;
@@ -53,6 +52,8 @@ double d_percent(const PositionMatrix& original, const PositionMatrix& decoded, 
 }
 
 }  // namespace
+
+bool is_foot_joint(const Joint& joint) { return names_foot(joint.name); }
 
 std::vector<float> joint_distances(const PositionMatrix& original, const PositionMatrix& decoded) {
   const Index frames = std::min(original.rows(), decoded.rows());
@@ -95,7 +96,7 @@ std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatr
   const Index frames = std::min(original.rows(), decoded.rows());
   std::vector<int> feet;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    if (is_foot(skeleton.joints[j].name)) feet.push_back(static_cast<int>(j));
+    if (is_foot_joint(skeleton.joints[j])) feet.push_back(static_cast<int>(j));
   }
   if (feet.empty() || frames < least_frames) return std::nullopt;
   // Halves go to the even number.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contacts/contact_stage.h"
 #include "quant/catmull_rom.h"
+#include "quant/contact_codec.h"
 #include "quant/cosine_transform.h"
 #include "quant/numbers.h"
 #include "reprise/error.h"
@@ -101,8 +103,8 @@ TrajectoryMatrix dequantise(const QuantisedKnots& quantised, const KnotShape& sh
   return trajectories;
 }
 
-std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape& shape,
-                                        const CodedMotion& motion) {
+std::vector<std::uint8_t> encode_motion(const KnotModel& model, const CoefficientSpace& space,
+                                        const TakeShape& take, const CodedMotion& motion) {
   RangeEncoder encoder;
   encoder.encode_plain(static_cast<std::uint32_t>(motion.step_index), step_bits);
   encoder.encode_plain(motion.tumbles, 1);
@@ -116,9 +118,11 @@ std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape&
     for (const std::int32_t turn : branch.quarter_turns) encode_signed(encoder, turn);
     frame = branch.frame;
   }
-  KnotShape stepped = shape;
-  stepped.step_half_octaves = half_octaves(motion.step_index);
-  KnotModel(model).encode(encoder, stepped, motion.knots);
+  KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
+  shape.step_half_octaves = half_octaves(motion.step_index);
+  KnotModel(model).encode(encoder, shape, motion.knots);
+  const std::vector<Leg> legs = find_legs(space.layout.reference);
+  encode_contacts(encoder, contact_shape(legs, take.frames, take.frame_rate), motion.contacts);
   return encoder.finish();
 }
 
@@ -150,18 +154,27 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
   KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
   shape.step_half_octaves = half_octaves(motion.step_index);
   motion.knots = KnotModel(model).decode(decoder, shape);
+  const std::vector<Leg> legs = find_legs(space.layout.reference);
+  motion.contacts = decode_contacts(decoder, contact_shape(legs, take.frames, take.frame_rate));
   if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
   return motion;
 }
 
+ChannelMatrix motion_channels(const CoefficientSpace& space, const Skeleton& skeleton,
+                              const TakeShape& take, const CodedMotion& motion) {
+  const KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
+  ChannelMatrix channels =
+      to_channels(space, skeleton, motion.tumbles,
+                  dequantise(motion.knots, shape, motion.step_index), motion.switches);
+  const std::vector<Leg> legs = find_legs(space.layout.reference);
+  apply_contacts(skeleton, legs, take.frame_rate, motion.contacts, channels);
+  return channels;
+}
+
 ChannelMatrix decode_take(const CodedSpace& coded, const Skeleton& skeleton, const TakeShape& take,
                           std::span<const std::uint8_t> bytes) {
-  const CodedMotion motion = decode_motion(coded.model, coded.space, take, bytes);
-  return to_channels(
-      coded.space, skeleton, motion.tumbles,
-      dequantise(motion.knots, shape_of(coded.space, take, motion.tumbles, motion.kinds),
-                 motion.step_index),
-      motion.switches);
+  return motion_channels(coded.space, skeleton, take,
+                         decode_motion(coded.model, coded.space, take, bytes));
 }
 
 }  // namespace reprise

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contacts/contact_detection.h"
 #include "ingest/trajectories.h"
 #include "quant/space_codec.h"
 #include "quant/trajectory_codec.h"
@@ -63,13 +64,18 @@ struct CodedMotion {
   CurveKinds kinds;
   std::vector<BranchSwitch> switches;
   QuantisedKnots knots;
+  std::vector<ContactInterval> contacts = {};  ///< of the legs of the space's reference skeleton
 };
 
-std::vector<std::uint8_t> encode_motion(const KnotModel& model, const KnotShape& shape,
-                                        const CodedMotion& motion);
+std::vector<std::uint8_t> encode_motion(const KnotModel& model, const CoefficientSpace& space,
+                                        const TakeShape& take, const CodedMotion& motion);
 /// Throws Error (damaged).
 CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
                           const TakeShape& take, std::span<const std::uint8_t> bytes);
+
+/// Trajectories to channels, feet held where they stand: what a decoder makes of a motion.
+ChannelMatrix motion_channels(const CoefficientSpace& space, const Skeleton& skeleton,
+                              const TakeShape& take, const CodedMotion& motion);
 
 /// From bytes to channels, on the skeleton of the take. Throws Error (damaged).
 ChannelMatrix decode_take(const CodedSpace& space, const Skeleton& skeleton, const TakeShape& take,

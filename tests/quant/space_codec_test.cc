@@ -108,8 +108,9 @@ TEST_P(TakeCodec, TakesComeBackFromTheirBytes) {
                            224,
                            kinds,
                            {{3, 1, {1, -2, 0}}, {9, -1, {0, 0, 4}}},
-                           quantise(coded.model, knots, 224).knots};
-  const auto bytes = encode_motion(coded.model, knots.shape, motion);
+                           quantise(coded.model, knots, 224).knots,
+                           {}};
+  const auto bytes = encode_motion(coded.model, space_, shape, motion);
   const CodedMotion decoded = decode_motion(coded.model, space_, shape, bytes);
   EXPECT_EQ(decoded.knots, motion.knots);
   EXPECT_EQ(decoded.step_index, motion.step_index);

@@ -30,6 +30,10 @@ Eigen::Matrix3d local_rotation(const Joint& joint, std::span<const double> chann
 void forward_kinematics(const Skeleton& skeleton, std::span<const double> channels,
                         std::span<JointFrame> joints);
 
+/// The same for the joints from index `first` on; those before it are taken as they are.
+void forward_kinematics_from(const Skeleton& skeleton, std::size_t first,
+                             std::span<const double> channels, std::span<JointFrame> joints);
+
 /// Forward kinematics of every frame.
 PositionMatrix joint_positions(const Skeleton& skeleton, const ChannelMatrix& channels);
 

@@ -44,8 +44,10 @@ std::vector<float> joint_distances(const PositionMatrix& original, const Positio
 /// mean, rms, p99 and max of a set of distances, which is reordered. p99 is interpolated linearly.
 PositionErrors summarise_distances(std::vector<float>& distances);
 
-/// A foot joint is one whose name has foot, toe or
-/// ankle in it, in any case. Contact: within 50 mm of the floor (5th percentile of the heights of
+/// True for a joint whose name has foot, toe or ankle in it, in any case.
+bool is_foot_joint(const Joint& joint);
+
+/// Contact of a foot joint: within 50 mm of the floor (5th percentile of the heights of
 /// all foot joints of the original) and slower than 150 mm/s; speeds are central differences over
 /// 50 ms.
 std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatrix& original,
