@@ -12,7 +12,7 @@ namespace {
 constexpr Probability least_probability = 64;
 constexpr int ages = 6;
 /// How likely a state is to change, by its age in octaves of units, out of 65536; and how sure that
-/// is. From the takes of docs/findings/2026-11-25-contacts.md.
+/// is. Chosen by hand, not fitted.
 constexpr std::array<std::uint16_t, ages> first_guess = {1500, 3000, 5000, 5000, 4000, 2500};
 constexpr std::uint16_t first_count = 8;
 
