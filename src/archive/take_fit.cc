@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contacts/contact_choice.h"
+
 namespace reprise {
 namespace {
 
@@ -16,21 +18,28 @@ class StepSearch {
         model_(model),
         take_(take),
         allowed_(options.mean_mm * (1.0 - FitConstants::margin)),
+        holds_feet_(options.contacts),
         positions_(joint_positions(*take.skeleton, take.channels)) {
     MarkedTake marked = mark_take(space.layout, take);
     TrajectoryMatrix trajectories = to_trajectories(space, take, marked);
     choose_kinds({take.frames(), take.frame_rate}, marked.root.tumbles, trajectories);
     find_switches();
-    if (options.contacts) {
-      contacts_ = find_contacts(find_legs(space.layout.reference), positions_, take.frame_rate);
-    }
   }
 
-  /// The coarsest step that keeps the mean, by the error's near proportion to the step.
   FittedTake run() {
+    FittedTake best = search(first_guess());
+    if (best.kept && holds_change(best.motion)) best = search(best.motion.step_index);
+    return best;
+  }
+
+ private:
+  /// The mean error grows with about this power of the step.
+  static constexpr double error_exponent = 0.8;
+
+  /// The coarsest step that keeps the mean, by the error's near proportion to the step.
+  FittedTake search(int step) {
     int good = -1, bad = QuantiserConstants::most_step + 1;
     FittedTake best;
-    int step = first_guess();
     while (good + 1 < bad) {
       FittedTake tried = measure(step);
       const double mean = tried.errors.mean;
@@ -50,10 +59,6 @@ class StepSearch {
     best.kept = good >= 0;
     return best;
   }
-
- private:
-  /// The mean error grows with about this power of the step.
-  static constexpr double error_exponent = 0.8;
 
   int first_guess() const { return guessed_step(allowed_); }
 
@@ -76,9 +81,21 @@ class StepSearch {
 
   void find_switches() {
     const int step = first_guess();
-    const CodedMotion motion{
-        knots_.tumbles, step, kinds_, {}, quantise(model_, knots_, step).knots, {}};
+    CodedMotion motion{knots_.tumbles, step, kinds_, {}, quantise(model_, knots_, step).knots, {}};
     switches_ = find_branch_switches(space_, take_, decode(motion));
+    motion.switches = switches_;
+    holds_change(std::move(motion));
+  }
+
+  /// Chooses contacts for what a motion is without them; true if they are not those from before.
+  bool holds_change(CodedMotion motion) {
+    if (!holds_feet_) return false;
+    motion.contacts = {};
+    TakeContacts chosen = choose_contacts(*take_.skeleton, find_legs(space_.layout.reference),
+                                          take_.frame_rate, positions_, decode(motion));
+    const bool changed = chosen != contacts_;
+    contacts_ = std::move(chosen);
+    return changed;
   }
 
   FittedTake measure(int step) const {
@@ -100,11 +117,12 @@ class StepSearch {
   const KnotModel& model_;
   const Take& take_;
   double allowed_;
+  bool holds_feet_;
   PositionMatrix positions_;
   TakeKnots knots_;
   CurveKinds kinds_;
   std::vector<BranchSwitch> switches_;
-  std::vector<ContactInterval> contacts_;
+  TakeContacts contacts_;
 };
 
 }  // namespace

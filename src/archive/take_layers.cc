@@ -22,7 +22,7 @@ class LayerMaker {
     const TakeShape shape{take_.frames(), take_.frame_rate};
     Bytes data = encode_motion(space_.model, space_.space, shape, fitted.motion);
     const std::size_t all = data.size();
-    fitted.motion.contacts.clear();
+    fitted.motion.contacts = {};
     const std::size_t curves =
         std::min(all, encode_motion(space_.model, space_.space, shape, fitted.motion).size());
     add(LayerKind::coefficients, mean_mm, {{"curves", curves}, {"contacts", all - curves}},

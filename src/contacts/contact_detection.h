@@ -30,6 +30,16 @@ struct ContactInterval {
   bool operator==(const ContactInterval&) const = default;
 };
 
+/// All contacts of a take.
+struct TakeContacts {
+  static constexpr int hold_bits = 2;
+
+  std::vector<ContactInterval> intervals;  ///< as find_contacts gives them
+  int hold = 0;  ///< how still points stand: index of ContactStageConstants::half_means_s
+
+  bool operator==(const TakeContacts&) const = default;
+};
+
 /// Frames a unit of time, at least 1.
 long contact_unit(double frame_rate);
 

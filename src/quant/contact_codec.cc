@@ -81,15 +81,16 @@ ContactShape contact_shape(const std::vector<Leg>& legs, long frames, double fra
 }
 
 void encode_contacts(RangeEncoder& encoder, const ContactShape& shape,
-                     const std::vector<ContactInterval>& contacts) {
-  encoder.encode_plain(!contacts.empty(), 1);
-  if (contacts.empty()) return;
+                     const TakeContacts& contacts) {
+  encoder.encode_plain(!contacts.intervals.empty(), 1);
+  if (contacts.intervals.empty()) return;
+  encoder.encode_plain(static_cast<std::uint32_t>(contacts.hold), TakeContacts::hold_bits);
   ContactWalk walk(shape);
   std::vector<std::vector<bool>> stands(walk.point_count());
   for (std::vector<bool>& of_point : stands) {
     of_point.assign(static_cast<std::size_t>(shape.units()), false);
   }
-  for (const ContactInterval& contact : contacts) {
+  for (const ContactInterval& contact : contacts.intervals) {
     for (long f = contact.first; f < contact.end; f += shape.unit) {
       stands[static_cast<std::size_t>(contact.point)][static_cast<std::size_t>(f / shape.unit)] =
           true;
@@ -106,9 +107,10 @@ void encode_contacts(RangeEncoder& encoder, const ContactShape& shape,
   }
 }
 
-std::vector<ContactInterval> decode_contacts(RangeDecoder& decoder, const ContactShape& shape) {
-  std::vector<ContactInterval> contacts;
+TakeContacts decode_contacts(RangeDecoder& decoder, const ContactShape& shape) {
+  TakeContacts contacts;
   if (decoder.decode_plain(1) == 0) return contacts;
+  contacts.hold = static_cast<int>(decoder.decode_plain(TakeContacts::hold_bits));
   ContactWalk walk(shape);
   std::vector<std::vector<ContactInterval>> found(walk.point_count());
   for (long unit = 0; unit < shape.units(); ++unit) {
@@ -122,7 +124,7 @@ std::vector<ContactInterval> decode_contacts(RangeDecoder& decoder, const Contac
     }
   }
   for (const std::vector<ContactInterval>& of_point : found) {
-    contacts.insert(contacts.end(), of_point.begin(), of_point.end());
+    contacts.intervals.insert(contacts.intervals.end(), of_point.begin(), of_point.end());
   }
   return contacts;
 }

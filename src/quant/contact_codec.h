@@ -19,11 +19,11 @@ struct ContactShape {
 };
 ContactShape contact_shape(const std::vector<Leg>& legs, long frames, double frame_rate);
 
-/// `contacts` as find_contacts gives them for the same shape.
+/// `contacts` are of the same shape.
 void encode_contacts(RangeEncoder& encoder, const ContactShape& shape,
-                     const std::vector<ContactInterval>& contacts);
+                     const TakeContacts& contacts);
 
 /// Contacts by point and then by time. Whatever the bits say, they are within the shape's frames.
-std::vector<ContactInterval> decode_contacts(RangeDecoder& decoder, const ContactShape& shape);
+TakeContacts decode_contacts(RangeDecoder& decoder, const ContactShape& shape);
 
 }  // namespace reprise

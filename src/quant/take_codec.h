@@ -64,7 +64,7 @@ struct CodedMotion {
   CurveKinds kinds;
   std::vector<BranchSwitch> switches;
   QuantisedKnots knots;
-  std::vector<ContactInterval> contacts = {};  ///< of the legs of the space's reference skeleton
+  TakeContacts contacts = {};  ///< of the legs of the space's reference skeleton
 };
 
 std::vector<std::uint8_t> encode_motion(const KnotModel& model, const CoefficientSpace& space,

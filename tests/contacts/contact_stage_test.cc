@@ -1,0 +1,142 @@
+#include "contacts/contact_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contacts/contact_choice.h"
+#include "contacts/legged_skeletons.h"
+#include "reprise/model/measure.h"
+
+namespace reprise {
+namespace {
+
+using namespace testing_contacts;
+
+constexpr double rate = 60;
+constexpr long frames = 240;
+constexpr long fade = 6;  // frames of ContactStageConstants::fade_s
+constexpr int whole_contact = 3;
+
+class ContactStage : public testing::TestWithParam<std::shared_ptr<const Skeleton> (*)()> {
+ protected:
+  ContactStage()
+      : skeleton_(GetParam()()),
+        legs_(find_legs(*skeleton_)),
+        plain_(swaying(*skeleton_, frames)) {}
+
+  ChannelMatrix held(const TakeContacts& contacts) const {
+    ChannelMatrix channels = plain_;
+    apply_contacts(*skeleton_, legs_, rate, contacts, channels);
+    return channels;
+  }
+  Eigen::MatrixX3d path(const ChannelMatrix& channels, int joint) const {
+    return joint_positions(*skeleton_, channels).middleCols<3>(3 * joint);
+  }
+  /// How far (mm) a joint gets away from where it is on average, first .. end - 1.
+  double wandering(const ChannelMatrix& channels, int joint, long first, long end) const {
+    const Eigen::MatrixX3d places = path(channels, joint).middleRows(first, end - first);
+    return (places.rowwise() - places.colwise().mean()).rowwise().norm().maxCoeff();
+  }
+
+  std::shared_ptr<const Skeleton> skeleton_;
+  std::vector<Leg> legs_;
+  ChannelMatrix plain_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Formats, ContactStage,
+                         testing::Values([] { return legs_of_bvh(); },
+                                         []() -> std::shared_ptr<const Skeleton> {
+                                           return skeletons::asf();
+                                         }));
+
+TEST_P(ContactStage, AFootStaysWhereItStands) {
+  const int foot = legs_.at(0).points[0][0];
+  ASSERT_GT(wandering(plain_, foot, 60, 150), 10);
+  EXPECT_LT(wandering(held({{{0, 60, 150}}, whole_contact}), foot, 60, 150), 0.5);
+}
+
+TEST_P(ContactStage, NothingButTheLegsAnglesChangesAndOnlyInContactsAndFades) {
+  const ChannelMatrix channels = held({{{0, 60, 100}, {0, 104, 150}}, whole_contact});
+  EXPECT_GT((channels - plain_).cwiseAbs().maxCoeff(), 0.1);
+  EXPECT_EQ(channels.topRows(60 - fade + 1), plain_.topRows(60 - fade + 1));
+  const long rest = frames - (150 + fade - 1);
+  EXPECT_EQ(channels.bottomRows(rest), plain_.bottomRows(rest));
+  for (std::size_t j = 0; j < skeleton_->joints.size(); ++j) {
+    const Joint& joint = skeleton_->joints[j];
+    const bool turns =
+        std::ranges::find(legs_[0].joints, static_cast<int>(j)) != legs_[0].joints.end();
+    for (std::size_t k = 0; k < joint.channels.size(); ++k) {
+      if (turns && is_rotation(joint.channels[k])) continue;
+      const auto channel = joint.first_channel + static_cast<Eigen::Index>(k);
+      EXPECT_EQ(channels.col(channel), plain_.col(channel)) << joint.name;
+    }
+  }
+}
+
+TEST_P(ContactStage, BonesKeepTheirLengths) {
+  const PositionMatrix before = joint_positions(*skeleton_, plain_);
+  const PositionMatrix after = joint_positions(*skeleton_, held({{{0, 60, 150}}, whole_contact}));
+  for (std::size_t j = 1; j < skeleton_->joints.size(); ++j) {
+    const auto own = 3 * static_cast<Eigen::Index>(j);
+    const Eigen::Index parent = 3 * skeleton_->joints[j].parent;
+    const auto lengths = [&](const PositionMatrix& places) -> Eigen::VectorXd {
+      return (places.middleCols<3>(own) - places.middleCols<3>(parent)).rowwise().norm();
+    };
+    EXPECT_LT((lengths(after) - lengths(before)).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST_P(ContactStage, AFadeIsNoJump) {
+  const int foot = legs_.at(0).points[0][0];
+  const Eigen::MatrixX3d moved =
+      path(held({{{0, 60, 150}}, whole_contact}), foot) - path(plain_, foot);
+  const double most = moved.rowwise().norm().maxCoeff();
+  // A cubic from rest to rest is steepest in its middle, 1.5 of its mean slope.
+  const double step =
+      (moved.bottomRows(frames - 1) - moved.topRows(frames - 1)).rowwise().norm().maxCoeff();
+  EXPECT_LT(step, 2 * most / static_cast<double>(fade));
+}
+
+TEST_P(ContactStage, ALegThatIsTooShortReachesAsFarAsItCan) {
+  const int foot = legs_.at(0).points[0][0];
+  Eigen::Index height = 0;
+  while (skeleton_->joints[0].channels[static_cast<std::size_t>(height)] != Channel::y_position) {
+    ++height;
+  }
+  // The body jumps up by 2 m while its foot stands.
+  for (long f = 60; f < 150; ++f) {
+    plain_(f, height) += std::sin((static_cast<double>(f) - 60) / 90 * 3.14159) * 2000 /
+                         skeleton_->millimetres_per_unit;
+  }
+  const ChannelMatrix channels = held({{{0, 60, 150}}, whole_contact});
+  ASSERT_TRUE(channels.allFinite());
+  EXPECT_LT(wandering(channels, foot, 60, 150), wandering(plain_, foot, 60, 150) + 1);
+  EXPECT_LT((channels - plain_).cwiseAbs().maxCoeff(), 360);
+}
+
+TEST_P(ContactStage, AnglesThatNeverMoveStay) {
+  for (const int joint : legs_.at(0).joints) {
+    const Joint& turns = skeleton_->joints[static_cast<std::size_t>(joint)];
+    const auto count = static_cast<Eigen::Index>(turns.channels.size());
+    plain_.middleCols(turns.first_channel, count).rowwise() =
+        plain_.row(0).middleCols(turns.first_channel, count).eval();
+  }
+  EXPECT_EQ(held({{{0, 60, 150}}, whole_contact}), plain_);
+}
+
+TEST_P(ContactStage, FeetSlideNoMoreThanTheirSourceButNoStillerThanItTakes) {
+  // The source stands, what was decoded slides; where the source slides as well, nothing is held
+  // tighter than the loosest hold.
+  const TakeContacts all{{{0, 0, frames}}, whole_contact};
+  const ChannelMatrix standing = held(all);
+  const PositionMatrix source = joint_positions(*skeleton_, standing);
+  const TakeContacts chosen = choose_contacts(*skeleton_, legs_, rate, source, plain_);
+  ASSERT_FALSE(chosen.intervals.empty());
+  EXPECT_EQ(chosen.hold, whole_contact);
+  const PositionMatrix sliding = joint_positions(*skeleton_, plain_);
+  EXPECT_EQ(choose_contacts(*skeleton_, legs_, rate, sliding, plain_).hold, 0);
+}
+
+}  // namespace
+}  // namespace reprise
