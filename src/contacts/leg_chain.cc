@@ -128,8 +128,10 @@ void LegChain::reach(std::span<double> channels, std::span<const JointGoal> goal
     // began, so that nothing depends on the way there.
     AngleMatrix normal = stiffness * AngleMatrix::Identity(count, count);
     AngleVector right = -stiffness * turned;
+    double missing = 0;
     for (const JointGoal& goal : goals) {
       const std::size_t joint = chain_index(goal.joint);
+      const Vector3d way = goal.place - frames_[joint].position;
       JacobianMatrix jacobian = JacobianMatrix::Zero(3, count);
       for (Eigen::Index a = 0; a < count; ++a) {
         const auto at = static_cast<std::size_t>(a);
@@ -139,8 +141,10 @@ void LegChain::reach(std::span<double> channels, std::span<const JointGoal> goal
       }
       const JacobianMatrix weighted = goal.weight * jacobian;
       normal.noalias() += weighted.transpose() * jacobian;
-      right.noalias() += weighted.transpose() * (goal.place - frames_[joint].position);
+      right.noalias() += weighted.transpose() * way;
+      missing += goal.weight * way.squaredNorm();
     }
+    normal.diagonal().array() += LegChainConstants::caution * missing;
     turned += normal.llt().solve(right);
     for (std::size_t a = 0; a < angles_.size(); ++a) {
       channels[static_cast<std::size_t>(angles_[a].channel)] =

@@ -16,6 +16,10 @@ struct LegChainConstants {
   /// How far the foot has to move (mm) to be worth a radian: small enough not to hold the foot back
   /// (a leg's own is 200 to 900), large enough for a stretched leg to bend smoothly.
   static constexpr double stiffness_mm = 12;
+  /// Damping of a round's steps by the squared distance (mm^2) that is still missing: a round turns
+  /// no angle by more than 1 / (2 sqrt(caution)) radians, however far away a goal is. (Chan and
+  /// Lawrence 1988 damp by the error, too.)
+  static constexpr double caution = 0.25;
   static constexpr int rounds = 3;
 };
 

@@ -18,8 +18,8 @@ inline std::shared_ptr<const Skeleton> legs_of_bvh(const std::string& ankle = "a
         side + ankle, "0 -40 0", skeletons::zxy,
         skeletons::joint(side + toes, "0 -7 12", "1 Xrotation", skeletons::end_site("0 0 6")));
     return skeletons::joint(
-        side + "_hip", offset, skeletons::zxy,
-        skeletons::joint(side + "_knee", "0 -42 1", "3 Xrotation Yrotation Zrotation", foot));
+        side + "hip", offset, skeletons::zxy,
+        skeletons::joint(side + "knee", "0 -42 1", "3 Xrotation Yrotation Zrotation", foot));
   };
   const std::string head =
       skeletons::joint("spine", "0 30 0", skeletons::zxy, skeletons::end_site("0 30 0"));

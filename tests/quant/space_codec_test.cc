@@ -109,7 +109,7 @@ TEST_P(TakeCodec, TakesComeBackFromTheirBytes) {
                            kinds,
                            {{3, 1, {1, -2, 0}}, {9, -1, {0, 0, 4}}},
                            quantise(coded.model, knots, 224).knots,
-                           {}};
+                           {{{0, 12, 40}, {1, 16, 36}, {1, 44, 60}}, 2}};
   const auto bytes = encode_motion(coded.model, space_, shape, motion);
   const CodedMotion decoded = decode_motion(coded.model, space_, shape, bytes);
   EXPECT_EQ(decoded.knots, motion.knots);
@@ -121,6 +121,7 @@ TEST_P(TakeCodec, TakesComeBackFromTheirBytes) {
   const TrajectoryMatrix back = dequantise(decoded.knots, knots.shape, decoded.step_index);
   const double each = (back - original).norm() / std::sqrt(static_cast<double>(original.size()));
   EXPECT_LT(each, quantiser_step(decoded.step_index));
+  EXPECT_EQ(decoded.contacts, motion.contacts);
   ASSERT_EQ(decoded.switches.size(), 2u);
   EXPECT_EQ(decoded.switches[1].driven, -1);
   EXPECT_EQ(decoded.switches[0].quarter_turns, motion.switches[0].quarter_turns);
