@@ -214,6 +214,7 @@ struct RepeatQuery {
   std::optional<FrameRange> frames;  ///< only the repeats of these frames of `take`
   bool across_subjects = false;      ///< only groups with two subjects or more
   double least_seconds = 0;          ///< only occurrences at least this long
+  unsigned jobs = 0;                 ///< worker threads, 0: one a core; results do not depend on it
 };
 
 /// An archive opened for reading; it never writes. Throws Error: damaged, newer_version, failed.

@@ -62,6 +62,7 @@ void RepeatsCommand::setup(CLI::App& app) {
                "Only motions that two subjects or more have");
   add_number(app, "--min-seconds", least_seconds_, 0, most_seconds,
              "Only occurrences at least this long");
+  add_whole_number(app, "--jobs", jobs_, 1, 1024, "Worker threads (default: all cores)");
   add_examples(app, {"reprise repeats lib.rpz", "reprise repeats lib.rpz walk_01 --min-seconds 1",
                      "reprise repeats lib.rpz walk_01 --from 2.5 --to 4 --json"});
 }
@@ -79,6 +80,7 @@ RepeatQuery RepeatsCommand::query_of(const Archive& archive) const {
   RepeatQuery query;
   query.across_subjects = across_subjects_;
   query.least_seconds = least_seconds_;
+  query.jobs = jobs_;
   if (id_.empty()) return query;
   const Archive::Selection selection = archive.find(id_);
   query.take = selection.take;

@@ -27,6 +27,7 @@ class RepeatsCommand : public Command {
   std::optional<double> to_;
   bool across_subjects_ = false;
   double least_seconds_ = 0;
+  unsigned jobs_ = 0;
 };
 
 }  // namespace reprise::cli

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "query/window_index.h"
+#include "rma/parallel_for.h"
 
 namespace reprise {
 namespace {
@@ -96,8 +97,9 @@ NearPair ordered_pair(const Window& a, const Window& b) {
 }  // namespace
 
 std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const RepeatConstants& repeats,
-                                      std::optional<std::size_t> only_take,
+                                      std::optional<std::size_t> only_take, unsigned jobs,
                                       const NearWindowConstants& constants) {
+  constexpr std::size_t block = 256;
   const double span = constants.window_s * repeats.rate, hop = constants.hop_s * repeats.rate;
   const WindowPoints own = cut_windows(library, std::nullopt, span, hop, constants.postures);
   if (own.windows.size() < 2) return {};
@@ -108,21 +110,25 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
     const double asked_span = span / tempo, least_lag = std::max(span, asked_span);
     const WindowPoints asked = cut_windows(library, only_take, asked_span, hop, constants.postures);
     const PointMatrix points = asked.points * axes;
-    for (std::size_t w = 0; w < asked.windows.size(); ++w) {
-      const Window& window = asked.windows[w];
-      const std::span<const float> point(points.row(static_cast<long>(w)).data(),
-                                         static_cast<std::size_t>(points.cols()));
-      for (const Neighbour& near : index.nearest(point, constants.neighbours)) {
-        if (near.squared_distance > constants.most_mm * constants.most_mm) break;
-        const Window& other = own.windows[near.point];
-        const bool overlaps =
-            other.take == window.take && std::abs(other.centre - window.centre) < least_lag;
-        if (!overlaps) {
-          ranked.push_back(
+    const std::size_t count = asked.windows.size(), blocks = (count + block - 1) / block;
+    std::vector<std::vector<RankedPair>> found(blocks);
+    parallel_for(blocks, jobs, [&](std::size_t b) {
+      for (std::size_t w = b * block; w < std::min(count, (b + 1) * block); ++w) {
+        const std::span<const float> point(points.row(static_cast<long>(w)).data(),
+                                           static_cast<std::size_t>(points.cols()));
+        for (const Neighbour& near : index.nearest(point, constants.neighbours)) {
+          if (near.squared_distance > constants.most_mm * constants.most_mm) break;
+          const Window& window = asked.windows[w];
+          const Window& other = own.windows[near.point];
+          const bool overlaps =
+              other.take == window.take && std::abs(other.centre - window.centre) < least_lag;
+          if (overlaps) continue;
+          found[b].push_back(
               {ordered_pair(window, other), static_cast<float>(near.squared_distance)});
         }
       }
-    }
+    });
+    for (const auto& pairs : found) ranked.insert(ranked.end(), pairs.begin(), pairs.end());
   }
   return nearest_first(std::move(ranked));
 }

@@ -25,8 +25,9 @@ struct NearWindowConstants {
 
 /// Pairs of places whose windows are alike at some speed from 1/2 to 2, nearest first. A window is
 /// not paired with one that overlaps it. With `only_take` just the pairs that its windows find.
+/// `jobs` threads, 0: one a core; the pairs do not depend on it.
 std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const RepeatConstants& repeats,
                                       std::optional<std::size_t> only_take = std::nullopt,
-                                      const NearWindowConstants& constants = {});
+                                      unsigned jobs = 1, const NearWindowConstants& constants = {});
 
 }  // namespace reprise

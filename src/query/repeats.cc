@@ -70,8 +70,9 @@ class RepeatsReader {
       add(postures, repeats_of_part(postures, *only));
       return;
     }
-    const auto pairs = find_near_pairs(postures.library, constants_, only);
-    for (const RepeatGroup& group : find_repeat_groups(postures.library, pairs, only, constants_)) {
+    const auto pairs = find_near_pairs(postures.library, constants_, only, query_.jobs);
+    for (const RepeatGroup& group :
+         find_repeat_groups(postures.library, pairs, only, constants_, query_.jobs)) {
       add(postures, group);
     }
   }
@@ -95,7 +96,7 @@ class RepeatsReader {
     if (clip.end - clip.begin < least_samples) {
       throw Error(ErrorCode::usage, "the part is too short to look for its motion");
     }
-    return find_repeats_of(postures.library, clip, constants_);
+    return find_repeats_of(postures.library, clip, constants_, query_.jobs);
   }
 
   void add(const SkeletonPostures& postures, const RepeatGroup& group) {

@@ -13,13 +13,15 @@ struct Step {
   int take;
 };
 constexpr std::array<Step, 5> steps{{{1, 1}, {1, 2}, {2, 1}, {1, 3}, {3, 1}}};
+constexpr long longest_step = 3;
 constexpr float never = std::numeric_limits<float>::infinity();
 
 /// Least-cost alignments of all of a clip (rows) with some part of a take (columns), free at both
-/// ends of the take. A row costs once, whatever the speed.
+/// ends of the take. A row costs once, whatever the speed. Costs never fall along an alignment:
+/// once none is within `most_cost` any more, the rest of the plot is left out.
 class AlignmentPlot {
  public:
-  AlignmentPlot(const PostureView& clip, const PostureView& take)
+  AlignmentPlot(const PostureView& clip, const PostureView& take, float most_cost)
       : rows_(clip.projected.rows()), columns_(take.projected.rows()) {
     distance_ = -2 * clip.projected * take.projected.transpose();
     distance_.colwise() += clip.projected.rowwise().squaredNorm();
@@ -28,7 +30,11 @@ class AlignmentPlot {
     cost_ = PostureMatrix::Constant(rows_, columns_, never);
     step_.resize(static_cast<std::size_t>(rows_ * columns_), -1);
     cost_.row(0) = distance_.row(0);
-    for (long r = 1; r < rows_; ++r) fill_row(r);
+    for (long r = 1, hopeless = 0; r < rows_; ++r) {
+      hopeless = cost_.row(r - 1).minCoeff() > most_cost ? hopeless + 1 : 0;
+      if (hopeless == longest_step) return;
+      fill_row(r);
+    }
   }
 
   /// Mean distance of the best alignment that ends at this column.
@@ -86,13 +92,14 @@ std::vector<AlignedClip> align_clip(const PostureView& clip, const PostureView& 
   constexpr float mean_to_rms = 1.6F;
   std::vector<AlignedClip> kept;
   if (clip.projected.rows() < 2 || take.projected.rows() < 2) return kept;
-  const AlignmentPlot plot(clip, take);
+  const float most_cost = mean_to_rms * most_mm;
+  const AlignmentPlot plot(clip, take, most_cost * static_cast<float>(clip.projected.rows()));
   std::vector<std::pair<float, long>> ends;
   for (long c = 0; c < take.projected.rows(); ++c) {
     const float cost = plot.cost_at(c);
     const bool least = (c == 0 || cost <= plot.cost_at(c - 1)) &&
                        (c + 1 == take.projected.rows() || cost < plot.cost_at(c + 1));
-    if (least && cost <= mean_to_rms * most_mm) ends.emplace_back(cost, c);
+    if (least && cost <= most_cost) ends.emplace_back(cost, c);
   }
   std::sort(ends.begin(), ends.end());
   for (const auto& [cost, column] : ends) {

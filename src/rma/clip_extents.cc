@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
+
+#include "rma/parallel_for.h"
 
 namespace reprise {
 namespace {
@@ -71,6 +74,28 @@ void part_sides(long& begin, long& end, long& other_begin, long& other_end) {
   other_end = std::min(other_end, other_begin + lag);
 }
 
+/// Paths in the plot of two takes, each with the pair that it was traced from. `pairs` are indices.
+std::vector<std::pair<std::size_t, TracedPath>> trace_plot(const PostureLibrary& library,
+                                                           std::span<const NearPair> near_pairs,
+                                                           const std::vector<std::size_t>& pairs,
+                                                           const RepeatConstants& constants) {
+  const long least_path = std::lround(constants.least_path_s * constants.rate);
+  std::vector<std::pair<std::size_t, TracedPath>> traced;
+  for (const std::size_t i : pairs) {
+    const NearPair& pair = near_pairs[i];
+    const auto on_it = [&](const auto& known) { return lies_on(known.second.path, pair); };
+    if (std::ranges::any_of(traced, on_it)) continue;
+    SimilarPath path =
+        trace_path(library.projected[pair.take], library.projected[pair.other_take],
+                   {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
+    if (path.pixels.empty()) continue;
+    traced.push_back({i, {pair.take, pair.other_take, std::move(path)}});
+  }
+  std::erase_if(traced,
+                [&](const auto& t) { return t.second.path.manhattan_length() < least_path; });
+  return traced;
+}
+
 }  // namespace
 
 double overlap_ratio(long begin_a, long end_a, long begin_b, long end_b) {
@@ -82,32 +107,32 @@ double overlap_ratio(long begin_a, long end_a, long begin_b, long end_b) {
 
 std::vector<TracedPath> trace_paths(const PostureLibrary& library,
                                     std::span<const NearPair> near_pairs,
-                                    const RepeatConstants& constants) {
-  const long least_path = std::lround(constants.least_path_s * constants.rate);
-  std::vector<TracedPath> traced;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> known;
-  for (const NearPair& pair : near_pairs) {
-    std::vector<std::size_t>& here = known[{pair.take, pair.other_take}];
-    const auto on_it = [&](std::size_t i) { return lies_on(traced[i].path, pair); };
-    if (std::ranges::any_of(here, on_it)) continue;
-    SimilarPath path =
-        trace_path(library.projected[pair.take], library.projected[pair.other_take],
-                   {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
-    if (path.pixels.empty()) continue;
-    here.push_back(traced.size());
-    traced.push_back({pair.take, pair.other_take, std::move(path)});
+                                    const RepeatConstants& constants, unsigned jobs) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_takes;
+  for (std::size_t i = 0; i < near_pairs.size(); ++i) {
+    by_takes[{near_pairs[i].take, near_pairs[i].other_take}].push_back(i);
   }
-  std::erase_if(traced,
-                [&](const TracedPath& t) { return t.path.manhattan_length() < least_path; });
-  return traced;
+  std::vector<std::vector<std::size_t>> plots;
+  for (auto& [takes, pairs] : by_takes) plots.push_back(std::move(pairs));
+  std::vector<std::vector<std::pair<std::size_t, TracedPath>>> traced(plots.size());
+  parallel_for(plots.size(), jobs, [&](std::size_t plot) {
+    traced[plot] = trace_plot(library, near_pairs, plots[plot], constants);
+  });
+  // In the order of the pairs, whichever plot they are in.
+  std::vector<std::pair<std::size_t, TracedPath>> all;
+  for (auto& paths : traced) std::ranges::move(paths, std::back_inserter(all));
+  std::ranges::sort(all, {}, &std::pair<std::size_t, TracedPath>::first);
+  std::vector<TracedPath> paths;
+  for (auto& [pair, path] : all) paths.push_back(std::move(path));
+  return paths;
 }
 
 std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
                                           std::span<const NearPair> near_pairs,
-                                          const RepeatConstants& constants) {
+                                          const RepeatConstants& constants, unsigned jobs) {
   const long least_clip = std::lround(constants.least_clip_s * constants.rate);
   std::vector<ExtentSet> sets(library.takes());
-  for (const TracedPath& traced : trace_paths(library, near_pairs, constants)) {
+  for (const TracedPath& traced : trace_paths(library, near_pairs, constants, jobs)) {
     const std::vector<PlotPixel>& pixels = traced.path.pixels;
     long begin = pixels.front().x, end = pixels.back().x + 1;
     long other_begin = pixels.front().y, other_end = pixels.back().y + 1;

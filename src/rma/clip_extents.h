@@ -30,13 +30,14 @@ struct TracedPath {
 };
 
 /// A path through every near pair that none has come through yet, without those that are too short.
+/// `jobs` threads, 0: one a core; here and below, results do not depend on it.
 std::vector<TracedPath> trace_paths(const PostureLibrary& library,
                                     std::span<const NearPair> near_pairs,
-                                    const RepeatConstants& constants);
+                                    const RepeatConstants& constants, unsigned jobs = 1);
 
 /// The projections of those paths; those that are nearly the same become one. Best supported first.
 std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
                                           std::span<const NearPair> near_pairs,
-                                          const RepeatConstants& constants);
+                                          const RepeatConstants& constants, unsigned jobs = 1);
 
 }  // namespace reprise

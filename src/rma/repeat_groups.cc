@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "rma/clip_extents.h"
+#include "rma/parallel_for.h"
 
 namespace reprise {
 namespace {
@@ -24,9 +26,10 @@ struct Stretch {
 class GroupFinder {
  public:
   GroupFinder(const PostureLibrary& library, std::span<const NearPair> near_pairs,
-              const RepeatConstants& constants)
+              const RepeatConstants& constants, unsigned jobs)
       : library_(library),
         constants_(constants),
+        jobs_(jobs),
         near_(library.takes()),
         members_(library.takes()) {
     for (const NearPair& pair : near_pairs) {
@@ -78,6 +81,7 @@ class GroupFinder {
 
   const PostureLibrary& library_;
   const RepeatConstants& constants_;
+  unsigned jobs_;
   std::vector<std::vector<NearPair>> near_;                  ///< by take, each pair from both sides
   std::vector<std::vector<std::pair<long, long>>> members_;  ///< of all groups, by take
 };
@@ -93,20 +97,36 @@ bool moves(const PostureView& clip, const RepeatConstants& constants) {
          sum / static_cast<double>(steps) * constants.rate >= constants.least_speed_mm_s;
 }
 
-/// Adds what is like the clip in a stretch and does not overlap it.
-void add_members(const PostureLibrary& library, const Occurrence& clip, const PostureView& view,
-                 const Stretch& stretch, const RepeatConstants& constants, RepeatGroup& group) {
+/// What is like the clip in a stretch and does not overlap it.
+std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurrence& clip,
+                                   const PostureView& view, const Stretch& stretch,
+                                   const RepeatConstants& constants) {
   const auto found =
       align_clip(view, library.view(stretch.take, stretch.begin, stretch.end), constants.member_mm);
   const long least = std::lround(constants.least_clip_s * constants.rate);
+  std::vector<Occurrence> members;
   for (const AlignedClip& member : found) {
     const long begin = stretch.begin + member.begin, end = stretch.begin + member.end;
     if (end - begin < least) continue;
     if (stretch.take == clip.take && begin < clip.end && clip.begin < end) continue;
     Occurrence occurrence{stretch.take, begin, end, member.mean_mm, member.map};
     for (long& sample : occurrence.map) sample += stretch.begin;
-    group.occurrences.push_back(std::move(occurrence));
+    members.push_back(std::move(occurrence));
   }
+  return members;
+}
+
+/// Adds what is like the clip in any of the stretches, in their order.
+void add_members(const PostureLibrary& library, const Occurrence& clip, const PostureView& view,
+                 const std::vector<Stretch>& stretches, const RepeatConstants& constants,
+                 unsigned jobs, RepeatGroup& group) {
+  // A thread costs as much as some alignments.
+  constexpr std::size_t least_stretches = 16;
+  std::vector<std::vector<Occurrence>> members(stretches.size());
+  parallel_for(stretches.size(), stretches.size() < least_stretches ? 1 : jobs, [&](std::size_t s) {
+    members[s] = members_in(library, clip, view, stretches[s], constants);
+  });
+  for (auto& list : members) std::ranges::move(list, std::back_inserter(group.occurrences));
 }
 
 std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
@@ -136,9 +156,7 @@ RepeatGroup GroupFinder::members_of(const Occurrence& clip) const {
   RepeatGroup group{{clip}};
   const PostureView view = library_.view(clip.take, clip.begin, clip.end);
   if (!moves(view, constants_)) return group;
-  for (const Stretch& stretch : stretches_near(clip)) {
-    add_members(library_, clip, view, stretch, constants_, group);
-  }
+  add_members(library_, clip, view, stretches_near(clip), constants_, jobs_, group);
   return group;
 }
 
@@ -158,22 +176,24 @@ PostureView PostureLibrary::view(std::size_t take, long begin, long end) const {
 std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
                                             std::span<const NearPair> near_pairs,
                                             std::optional<std::size_t> only_take,
-                                            const RepeatConstants& constants) {
-  std::vector<ClipExtent> extents = find_clip_extents(library, near_pairs, constants);
+                                            const RepeatConstants& constants, unsigned jobs) {
+  std::vector<ClipExtent> extents = find_clip_extents(library, near_pairs, constants, jobs);
   if (only_take) {
     std::erase_if(extents, [&](const ClipExtent& extent) { return extent.take != *only_take; });
   }
-  return GroupFinder(library, near_pairs, constants).run(extents);
+  return GroupFinder(library, near_pairs, constants, jobs).run(extents);
 }
 
 RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& clip,
-                            const RepeatConstants& constants) {
+                            const RepeatConstants& constants, unsigned jobs) {
   RepeatGroup group{{clip}};
   group.occurrences[0].distance_mm = 0;
-  const PostureView view = library.view(clip.take, clip.begin, clip.end);
+  std::vector<Stretch> takes;
   for (std::size_t take = 0; take < library.takes(); ++take) {
-    add_members(library, clip, view, {take, 0, library.postures[take].rows()}, constants, group);
+    takes.push_back({take, 0, library.postures[take].rows()});
   }
+  add_members(library, clip, library.view(clip.take, clip.begin, clip.end), takes, constants, jobs,
+              group);
   return group;
 }
 

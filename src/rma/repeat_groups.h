@@ -56,15 +56,16 @@ struct RepeatGroup {
 
 /// Groups of at least two, those that explain most first. A clip may be in several groups: as a
 /// part of a longer motion that recurs, or a longer one around it. With `only_take` the references
-/// are clips of that take.
+/// are clips of that take. `jobs` threads, 0: one a core; here and below, results do not depend
+/// on it.
 std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
                                             std::span<const NearPair> near_pairs,
                                             std::optional<std::size_t> only_take,
-                                            const RepeatConstants& constants);
+                                            const RepeatConstants& constants, unsigned jobs = 1);
 
 /// The repeats of one clip, by looking at all of the library; with the clip alone where there are
 /// none.
 RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& clip,
-                            const RepeatConstants& constants);
+                            const RepeatConstants& constants, unsigned jobs = 1);
 
 }  // namespace reprise
