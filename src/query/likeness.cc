@@ -9,7 +9,6 @@ namespace reprise {
 namespace {
 
 using K = LikenessConstants;
-using PostureRow = Eigen::Matrix<float, 1, posture_size>;
 
 constexpr int direction_size = plan_bones * 3;
 
@@ -61,6 +60,32 @@ BoneValues activity_weights(const BoneValues& activity) {
   return mean > 0 ? BoneValues(weights / mean) : BoneValues::Ones();
 }
 
+MotionSummary summary_of(const MotionForm& form) {
+  MotionSummary summary;
+  summary.mean = form.rows.colwise().mean();
+  summary.deviation =
+      ((form.rows.rowwise() - summary.mean).array().square().colwise().mean()).sqrt();
+  // Bone ends that hardly move say nothing.
+  const float most = std::max(form.activity.maxCoeff(), 1.0f);
+  summary.restlessness = form.recurrence * (form.activity / most).sqrt();
+  summary.length = static_cast<float>(std::log(form.seconds));
+  return summary;
+}
+
+/// Distance of two summaries; of `shared` bones alone.
+double summary_distance(const MotionSummary& a, const MotionSummary& b, const BoneValues& shared) {
+  PostureRow counted = PostureRow::Ones();
+  for (int i = 0; i < plan_bones; ++i) counted.segment<3>(3 * i).setConstant(shared[i]);
+  const auto squares = [&](const PostureRow& row_a, const PostureRow& row_b) {
+    return double{((row_a - row_b).array().square() * counted.array()).sum()};
+  };
+  const double recurrence =
+      double{(shared * (a.restlessness - b.restlessness).square()).sum()} / plan_bones;
+  const double duration = double{a.length - b.length} * K::duration_weight;
+  return std::sqrt(squares(a.mean, b.mean) + squares(a.deviation, b.deviation) +
+                   recurrence * K::recurrence_weight * K::recurrence_weight + duration * duration);
+}
+
 const float per_bone = std::sqrt(1.0f / static_cast<float>(plan_bones));
 
 }  // namespace
@@ -88,6 +113,15 @@ PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int co
   return rows;
 }
 
+Eigen::Matrix<float, 1, MotionSummary::numbers> MotionSummary::row() const {
+  Eigen::Matrix<float, 1, numbers> row;
+  row << mean, deviation,
+      restlessness.matrix().transpose() *
+          (K::recurrence_weight / std::sqrt(static_cast<float>(plan_bones))),
+      K::duration_weight * length;
+  return row;
+}
+
 int samples_for(double seconds) {
   return std::clamp(static_cast<int>(std::ceil(seconds / K::longest_step)), K::samples,
                     K::most_samples);
@@ -106,6 +140,7 @@ MotionForm motion_form(const PostureTrack& track, const Stretch& stretch, int sa
     form.lengths[b] = track.plan.lengths[static_cast<std::size_t>(b)];
   }
   form.seconds = std::max(stretch.seconds(), 1.0 / PostureConstants::rate);
+  form.summary = summary_of(form);
   return form;
 }
 
@@ -128,7 +163,9 @@ double unlikeness(const MotionForm& a, const MotionForm& b) {
   const double recurrence = double{(shares * (a.recurrence - b.recurrence).square()).sum()} *
                             K::recurrence_weight * K::recurrence_weight;
   const double duration = std::log(a.seconds / b.seconds) * K::duration_weight;
-  return std::sqrt(posture * posture + recurrence + duration * duration);
+  const double course = std::sqrt(posture * posture + recurrence + duration * duration);
+  return (1 - K::summary_part) * course +
+         K::summary_part * summary_distance(a.summary, b.summary, shared);
 }
 
 double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const PostureTrack& b,

@@ -26,6 +26,8 @@ struct LikenessConstants {
   static constexpr float recurrence_weight = 90.0f;
   /// mm that a factor e between two durations counts.
   static constexpr float duration_weight = 30.0f;
+  /// A comparison counts this part on what sums a motion up, the rest on its postures one by one.
+  static constexpr double summary_part = 2.0 / 3;
   /// mm added to a path and to a range before they are compared, so that rest is not noise.
   static constexpr float rest_mm = 30.0f;
 };
@@ -46,6 +48,20 @@ struct Stretch {
 /// and weighted speeds. `bearing` is how much of the median posture is taken out.
 PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int count, float bearing);
 
+using PostureRow = Eigen::Matrix<float, 1, posture_size>;
+
+/// A motion without its course in time.
+struct MotionSummary {
+  static constexpr int numbers = 2 * posture_size + plan_bones + 1;
+  PostureRow mean;          ///< of the postures, bearing taken out
+  PostureRow deviation;     ///< standard deviation of each of their numbers
+  BoneValues restlessness;  ///< how often a bone end goes back and forth, as far as it moves at all
+  float length = 0;         ///< log of seconds
+
+  /// Side by side, weighted so that a distance of two is one in mm.
+  Eigen::Matrix<float, 1, numbers> row() const;
+};
+
 /// What is compared of a stretch.
 struct MotionForm {
   PostureMatrix rows;     ///< bearing taken out
@@ -53,13 +69,15 @@ struct MotionForm {
   BoneValues recurrence;  ///< log of its path over its range
   BoneValues lengths;     ///< of the plan
   double seconds = 0;
+  MotionSummary summary;
 };
 int samples_for(double seconds);
 MotionForm motion_form(const PostureTrack& track, const Stretch& stretch, int samples);
 
-/// Both with the same number of samples. The root of the sum of squares (mm) of: the mean distance
-/// of postures along the cheapest path of a dynamic time warp, the difference in how often the
-/// bones' ends go back and forth, and in duration.
+/// Both with the same number of samples. A weighted mean (mm) of two distances. One is the root of
+/// the sum of squares of the mean distance of postures along the cheapest path of a dynamic time
+/// warp, of the difference in how often the bones' ends go back and forth, and in duration. The
+/// other is that of their summaries.
 double unlikeness(const MotionForm& a, const MotionForm& b);
 
 /// Mean distance (mm) of the bones' ends along the best time alignment, heading and place taken

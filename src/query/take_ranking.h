@@ -8,9 +8,7 @@
 
 namespace reprise {
 
-/// Of each track: mean and deviation of its postures, how often each bone end goes back and forth,
-/// and its duration, weighted as in LikenessConstants. A distance of two is about an unlikeness
-/// (mm).
+/// The summary of each track: a distance of two is about an unlikeness (mm).
 class TakeRanking {
  public:
   /// The tracks have one plan; they are not needed any more afterwards.
@@ -22,11 +20,10 @@ class TakeRanking {
                                    const std::vector<bool>& accept) const;
 
  private:
-  static constexpr int numbers = 2 * posture_size + plan_bones + 1;
-  using Description = Eigen::Matrix<float, 1, numbers>;
+  using Description = Eigen::Matrix<float, 1, MotionSummary::numbers>;
   static Description describe(const PostureTrack& track);
 
-  Eigen::Matrix<float, Eigen::Dynamic, numbers, Eigen::RowMajor> descriptions_;
+  Eigen::Matrix<float, Eigen::Dynamic, MotionSummary::numbers, Eigen::RowMajor> descriptions_;
 };
 
 }  // namespace reprise
