@@ -51,6 +51,25 @@ TEST_F(PlotCommandTest, DrawsATake) {
   EXPECT_EQ(output({"plot", "lib.rpz", "--self-distance", name, "-o", "-"}), file);
 }
 
+TEST_F(PlotCommandTest, DrawsKeyPosesOfATakeAndOfAClip) {
+  const json take = document({"list", "lib.rpz"})["takes"][0];
+  const std::string name = take["name"];
+  const json whole = document({"plot", "lib.rpz", "--summary", name, "-o", "poses.png"});
+  EXPECT_EQ(whole["take"], name);
+  expect_cover(whole["key_poses"], take["seconds"]);
+  const json known = document({"info", "lib.rpz", name});
+  EXPECT_EQ(whole["key_poses"], known["take"]["key_poses"]);
+  const auto [width, height] = size_of(read_file(folder() / "poses.png"));
+  EXPECT_GT(width, height);
+
+  const json clip = document({"list", "lib.rpz", "--clips"})["clips"].back();
+  const json part =
+      document({"plot", "lib.rpz", "--summary", clip["id"], "-o", "part.png"})["key_poses"];
+  EXPECT_NEAR(part.front()["start"].get<double>(), clip["start"].get<double>(), 0.1);
+  EXPECT_NEAR(part.back()["end"].get<double>(), clip["end"].get<double>(), 0.1);
+  EXPECT_GT(size_of(read_file(folder() / "part.png")).first, 0u);
+}
+
 TEST_F(PlotCommandTest, KeepsAFileThatIsThere) {
   write_file(folder() / "plot.png", "mine");
   const std::vector<std::string> words = {"plot",          "lib.rpz", "--self-distance",
@@ -66,6 +85,11 @@ TEST_F(PlotCommandTest, KeepsAFileThatIsThere) {
 TEST_F(PlotCommandTest, RefusesWhatMakesNoSense) {
   EXPECT_EQ(reprise({"plot", "lib.rpz", "-o", "plot.png"}).exit_code, 2);
   EXPECT_EQ(reprise({"plot", "lib.rpz", "--self-distance", take_names()[0]}).exit_code, 2);
+  EXPECT_EQ(reprise({"plot", "lib.rpz", "--summary", "no-such", "-o", "p.png"}).exit_code, 7);
+  EXPECT_EQ(reprise({"plot", "lib.rpz", "--summary", take_names()[0], "--self-distance",
+                     take_names()[0], "-o", "p.png"})
+                .exit_code,
+            2);
   EXPECT_EQ(reprise({"plot", "lib.rpz", "--self-distance", "no-such", "-o", "p.png"}).exit_code, 7);
 }
 
