@@ -101,7 +101,7 @@ void AdaptivePrediction::adapt(Column& column, std::int64_t error) {
       product += x[i] * x[j] - (product >> Constants::forgetting);
     }
   }
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = column.first_moved; i < n; i += 2) {
     const std::int64_t step = divided(slopes[i], column.products[place_of(i, i)]);
     const std::int64_t weight = std::clamp<std::int64_t>(
         column.weights[i] + step, -Constants::most_weight, Constants::most_weight);
@@ -113,6 +113,7 @@ void AdaptivePrediction::adapt(Column& column, std::int64_t error) {
     }
   }
   column.slopes = slopes;
+  column.first_moved ^= 1;
 }
 
 }  // namespace reprise

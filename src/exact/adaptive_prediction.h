@@ -1,6 +1,6 @@
 // Each column's next value from its own last changes and from how earlier columns turned in the
-// same row. Weights follow the motion while it is coded, by recursive least squares: one sweep of
-// Gauss-Seidel a row over exponentially forgotten normal equations. Integers only.
+// same row. Weights follow the motion while it is coded, by recursive least squares: half a sweep
+// of Gauss-Seidel a row over exponentially forgotten normal equations. Integers only.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace reprise {
 
 /// Earlier columns that help to predict one: each 0, or 1 + the column.
-constexpr std::size_t most_references = 2;
+constexpr std::size_t most_references = 3;
 using ColumnReferences = std::array<std::uint32_t, most_references>;
 
 /// These belong to the format of exact texts; docs/findings/2026-11-25-exact-texts.md has what was
@@ -58,6 +58,7 @@ class AdaptivePrediction {
     std::array<std::int64_t, PredictionConstants::features*(PredictionConstants::features + 1) / 2>
         products{};
     Features slopes{};
+    std::uint8_t first_moved = 0;  ///< a row moves every other weight, from this one on
   };
   static void adapt(Column& column, std::int64_t error);
 

@@ -69,15 +69,29 @@ std::optional<Decimal> take_apart(std::string_view word) {
   return decimal;
 }
 
-/// At least `width` digits, with zeros in front.
+constexpr auto make_pairs() {
+  std::array<char, 200> pairs{};
+  for (int i = 0; i < 100; ++i) {
+    pairs[2 * i] = static_cast<char>('0' + i / 10);
+    pairs[2 * i + 1] = static_cast<char>('0' + i % 10);
+  }
+  return pairs;
+}
+constexpr auto pairs = make_pairs();
+
+/// At least `width` digits (at most 20), with zeros in front.
 void append_digits(std::uint64_t value, int width, std::string& text) {
   std::array<char, 24> buffer;
   auto* const end = buffer.data() + buffer.size();
   char* begin = end;
-  while (value != 0 || end - begin < width) {
-    *--begin = static_cast<char>('0' + value % 10);
-    value /= 10;
+  while (value >= 10) {
+    const char* const pair = &pairs[2 * (value % 100)];
+    value /= 100;
+    *--begin = pair[1];
+    *--begin = pair[0];
   }
+  if (value != 0) *--begin = static_cast<char>('0' + value);
+  while (end - begin < width) *--begin = '0';
   text.append(begin, end);
 }
 

@@ -9,7 +9,8 @@
 
 namespace reprise {
 
-/// One frame of level 19 without magic number, size and checksum; `prefix` is needed again to decode it.
+/// One frame of level 19 without magic number, size and checksum; `prefix` is needed again to
+/// decode it.
 std::vector<std::uint8_t> compress_plain(std::string_view text, std::string_view prefix);
 
 /// At most about twice the size of such a frame, found much faster.

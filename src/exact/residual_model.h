@@ -20,15 +20,19 @@ inline int log4_of(std::uint64_t value) {
 
 /// What a channel's residuals were like; units of its values.
 struct ResidualHistory {
-  std::int64_t fast = 0;  ///< means of their magnitudes, times 16
-  std::int64_t slow = 0;
+  std::int32_t fast = 0;  ///< means of the logarithms of their magnitudes, in 1/64 bit
+  std::int32_t slow = 0;
+  std::uint8_t count = 0;                ///< of residuals so far
   std::array<std::uint8_t, 2> widths{};  ///< of the last ones, in steps of the grid
 
   void update(std::int64_t magnitude) {
     constexpr int fast_rate = 2, slow_rate = 5;
-    const std::int64_t target = magnitude * 16;
+    const int target = 16 * log4_of(static_cast<std::uint64_t>(magnitude));
+    // The first two are a whole value and a whole change.
+    if (count < 2) fast = slow = target;
     fast += (target - fast) / (1 << fast_rate);
-    slow += (target - slow) / (1 << slow_rate);
+    slow += (target - slow) / (1 << std::clamp<int>(std::bit_width(count), fast_rate, slow_rate));
+    if (count < 255) ++count;
   }
 };
 
@@ -86,9 +90,8 @@ template <class Coding>
 std::int64_t ResidualModel::code(Coding& coding, std::size_t channel, ResidualHistory& history,
                                  int log_step, std::int64_t residual) {
   // Means are times 16: 4 x 4 in quarters of a bit.
-  const int scale =
-      log4_of(static_cast<std::uint64_t>(history.fast + history.slow) / 2) - 16 - log_step;
-  const int expected = std::clamp(scale / 4, 0, widths - 1);
+  const int expected =
+      std::clamp((history.fast + history.slow - 32 * log_step + 160) >> 7, 0, widths - 1);
   const int activity = std::clamp((activity_ + 72) / 18, 0, activities - 1);
   const auto relative = [&](int width) { return std::clamp(width - expected + 3, 0, 7); };
   const int lasts =
