@@ -20,7 +20,7 @@ struct LegChainConstants {
   /// no angle by more than 1 / (2 sqrt(caution)) radians, however far away a goal is. (Chan and
   /// Lawrence 1988 damp by the error, too.)
   static constexpr double caution = 0.25;
-  static constexpr int rounds = 3;
+  static constexpr int rounds = 2;
 };
 
 /// Where one joint should be (world, mm).
