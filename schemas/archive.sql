@@ -12,11 +12,8 @@ CREATE TABLE proportions(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFER
 -- Axes, and what else the coder needs before a take can be decoded.
 CREATE TABLE spaces(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES skeletons, base INTEGER NOT NULL, data BLOB NOT NULL, digest BLOB NOT NULL);
 
--- Up to 64 takes each: what is known of them, column by column, and their coded motion. Take t is in block t / 64.
+-- Up to 64 takes each: what is known of them and their clips, column by column, and their coded motion. Take t is in block t / 64.
 CREATE TABLE blocks(id INTEGER PRIMARY KEY, takes BLOB NOT NULL, digest BLOB NOT NULL, data BLOB NOT NULL);
 
 -- Where takes are found: by their names, and by the IDs of their clips.
 CREATE TABLE keys(key INTEGER NOT NULL, take INTEGER NOT NULL, PRIMARY KEY(key, take)) WITHOUT ROWID;
-
--- Clips that are parts of takes.
-CREATE TABLE clips(take INTEGER NOT NULL, first_frame INTEGER NOT NULL, address INTEGER NOT NULL, frames INTEGER NOT NULL, kind INTEGER NOT NULL, family INTEGER NOT NULL, primary_clip INTEGER NOT NULL, bytes INTEGER NOT NULL, PRIMARY KEY(take, first_frame, address)) WITHOUT ROWID;

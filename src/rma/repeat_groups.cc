@@ -32,6 +32,9 @@ class GroupFinder {
         jobs_(jobs),
         near_(library.takes()),
         members_(library.takes()) {
+    for (const PostureMatrix& take : library.postures) {
+      covered_.emplace_back(static_cast<std::size_t>(take.rows()), false);
+    }
     for (const NearPair& pair : near_pairs) {
       near_[pair.take].push_back(pair);
       near_[pair.other_take].push_back(
@@ -46,14 +49,26 @@ class GroupFinder {
       if (is_explained(extent)) continue;
       RepeatGroup group = group_around({extent.take, extent.begin, extent.end, 0});
       if (group.occurrences.size() < 2) continue;
-      for (const Occurrence& o : group.occurrences) members_[o.take].push_back({o.begin, o.end});
+      for (const Occurrence& o : group.occurrences) add_explained(o);
       groups.push_back(std::move(group));
     }
     return groups;
   }
 
  private:
+  void add_explained(const Occurrence& member) {
+    members_[member.take].push_back({member.begin, member.end});
+    std::vector<bool>& covered = covered_[member.take];
+    std::fill(covered.begin() + member.begin, covered.begin() + member.end, true);
+  }
+
   bool is_explained(const ClipExtent& extent) const {
+    const std::vector<bool>& covered = covered_[extent.take];
+    const auto known = std::count(covered.begin() + extent.begin, covered.begin() + extent.end, true);
+    if (static_cast<double>(known) >=
+        constants_.explained_cover * static_cast<double>(extent.end - extent.begin)) {
+      return true;
+    }
     return std::ranges::any_of(members_[extent.take], [&](const auto& member) {
       return overlap_ratio(extent.begin, extent.end, member.first, member.second) >=
              explained_overlap;
@@ -84,6 +99,7 @@ class GroupFinder {
   unsigned jobs_;
   std::vector<std::vector<NearPair>> near_;                  ///< by take, each pair from both sides
   std::vector<std::vector<std::pair<long, long>>> members_;  ///< of all groups, by take
+  std::vector<std::vector<bool>> covered_;                   ///< samples of all groups, by take
 };
 
 bool moves(const PostureView& clip, const RepeatConstants& constants) {

@@ -208,12 +208,14 @@ void ArchiveStore::commit() {
     throw;
   }
   impl_->in_transaction = false;
+  impl_->links.reset();
   impl_->lock->keep();
 }
 
 void ArchiveStore::roll_back() {
   impl_->in_transaction = false;
   impl_->open.reset();
+  impl_->links.reset();
   impl_->vacated.clear();
   // A failed write may have rolled back already.
   if (sqlite3_get_autocommit(impl_->database->handle()) == 0) impl_->database->run("ROLLBACK");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -76,19 +77,31 @@ struct TakeRecord {
   std::vector<std::pair<std::string, std::uint64_t>> spent;
 };
 
-/// A clip of a take (what ClipInfo says, with rows for names).
-struct ClipRecord {
-  std::uint64_t id = 0;  ///< content address
+/// Where a clip is: the n-th of a take. Take 0 is the take of the clip that refers there.
+struct ClipPlace {
   std::int64_t take = 0;
+  std::size_t index = 0;
+
+  friend auto operator<=>(const ClipPlace&, const ClipPlace&) = default;
+};
+
+/// A clip of a take (what ClipInfo says, with rows for names). The clips of a take follow one
+/// another and cover it.
+struct ClipRecord {
+  std::uint64_t id = 0;   ///< content address
+  std::int64_t take = 0;  ///< filled in by the store
   ClipKind kind = ClipKind::unique;
   std::int64_t group = 0;
   long first_frame = 0;
   long frames = 0;
-  std::uint64_t primary = 0;  ///< content address of the primary, or 0
-  std::uint64_t bytes = 0;
+  ClipPlace primary_place;    ///< of a repeated clip
+  std::uint64_t primary = 0;  ///< content address of the primary, or 0; filled in by the store
+  std::uint64_t bytes = 0;    ///< its frames' share of the take's layers; filled in by the store
 };
 
 constexpr std::size_t most_layers = 8;
+
+struct StoredClip;
 
 class ArchiveStore {
  public:
@@ -112,9 +125,13 @@ class ArchiveStore {
   std::int64_t add_proportions(const ProportionsRecord& record);
   std::int64_t add_space(const SpaceRecord& record);
   std::int64_t add_take(const TakeRecord& take, std::span<const ClipRecord> clips);
-  void remove_take(
-      std::int64_t id);  ///< with its clips; what nothing refers to any more goes with it
-  void compact();        ///< outside a transaction
+  /// Other kinds, groups and primaries for the clips of stored takes. Which frames they have, and
+  /// their IDs, stay as they are. A repeated clip refers to a primary one.
+  void set_clips(const std::map<std::int64_t, std::vector<ClipRecord>>& clips);
+  /// With its clips; what nothing refers to any more goes with it. Clips that repeat one of them
+  /// become unique, and so do primaries that nothing repeats any more.
+  void remove_take(std::int64_t id);
+  void compact();  ///< outside a transaction
 
   // Reading. Every row that is returned has passed its digest; one that has not throws Error
   // (damaged).
@@ -162,6 +179,12 @@ class ArchiveStore {
   /// Takes whose name is `tail` or, unless `whole`, ends in it after a slash.
   std::vector<TakeRecord> takes_named(const std::string& tail, bool whole) const;
   void count_clips(ArchiveStats& stats) const;
+  void change_clips(const std::map<std::int64_t, std::vector<ClipRecord>>& changes);
+  /// Makes clips of other takes unique where they repeat clips of this one, or are repeated by
+  /// nothing else.
+  void unlink_take(std::int64_t id);
+  /// A clip's primary. Throws Error (damaged) where there is none.
+  StoredClip primary_of(const ClipRecord& clip) const;
   void count_bytes(ArchiveStats& stats, std::uint64_t motion) const;
   void check_takes(std::vector<Damage>& damaged) const;
   bool has_clip_of_kind(std::int64_t take, ClipKind kind) const;

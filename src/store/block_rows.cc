@@ -1,7 +1,9 @@
 // Blocks of takes as rows, and the keys that lead to them.
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
+#include "store/block_columns.h"
 #include "store/compression.h"
 #include "store/store_impl.h"
 
@@ -147,16 +149,42 @@ std::set<std::int64_t> keys_of(const TakeInfo& take, std::span<const ClipRecord>
   return keys;
 }
 
-ClipRecord clip_of(std::int64_t take, const StoredTake& stored) {
-  assert(stored.clip);
-  ClipRecord clip;
-  clip.id = stored.clip->address;
-  clip.take = take;
-  clip.kind = ClipKind::unique;
-  clip.group = stored.clip->group;
-  clip.frames = stored.record.info.frames;
-  clip.bytes = stored.clip->bytes;
-  return clip;
+std::vector<ClipRecord> clips_of(std::int64_t take, const StoredTake& stored) {
+  std::vector<ClipRecord> clips;
+  const auto bytes = static_cast<double>(size_of_layers(stored));
+  const auto frames = static_cast<double>(std::max(1L, stored.record.info.frames));
+  // Rounded where clips meet, so that they add up.
+  const auto bytes_before = [&](long frame) {
+    return static_cast<std::uint64_t>(std::floor(bytes * (static_cast<double>(frame) / frames)));
+  };
+  long first = 0;
+  for (const StoredClip& part : stored.clips) {
+    ClipRecord clip;
+    clip.id = part.address;
+    clip.take = take;
+    clip.kind = part.kind;
+    clip.group = part.group;
+    clip.first_frame = first;
+    clip.frames = part.frames;
+    clip.primary_place = part.primary;
+    clip.bytes = bytes_before(first + part.frames) - bytes_before(first);
+    first += part.frames;
+    clips.push_back(clip);
+  }
+  return clips;
+}
+
+std::vector<StoredClip> stored_clips(std::int64_t take, std::span<const ClipRecord> clips) {
+  std::vector<StoredClip> stored;
+  for (const ClipRecord& clip : clips) {
+    StoredClip part{clip.id, clip.kind, clip.group, clip.frames, {}};
+    if (clip.kind == ClipKind::repeated) {
+      part.primary = clip.primary_place;
+      if (part.primary.take == 0) part.primary.take = take;
+    }
+    stored.push_back(part);
+  }
+  return stored;
 }
 
 }  // namespace reprise

@@ -33,7 +33,8 @@ class ColumnReader {
   std::vector<std::uint64_t> numbers(std::size_t count);
   std::uint64_t number();
   std::span<const std::uint8_t> raw(std::size_t size);
-  std::span<const std::uint8_t> rest() { return raw(bytes_.size() - at_); }
+  std::span<const std::uint8_t> rest() { return raw(left()); }
+  std::size_t left() const { return bytes_.size() - at_; }
 
  private:
   std::span<const std::uint8_t> bytes_;

@@ -128,17 +128,38 @@ class Packer {
   }
 
   void pack_clips() {
-    const auto count = [](const StoredTake& t) -> std::size_t { return t.clip ? 1 : 0; };
+    const auto count = [](const StoredTake& t) { return t.clips.size(); };
     column(count);
-    columns(count, [](const StoredTake& t, std::size_t) {
-      return static_cast<std::uint64_t>(t.clip->group);
+    columns(count, [](const StoredTake& t, std::size_t i) {
+      return static_cast<std::uint64_t>(t.clips[i].kind);
     });
-    columns(count, [](const StoredTake& t, std::size_t) {
-      return folded(difference(t.clip->bytes, size_of_layers(t)));
+    columns(count, [](const StoredTake& t, std::size_t i) {
+      return static_cast<std::uint64_t>(t.clips[i].group);
     });
+    // The last one ends where the take does.
+    const auto but_one = [](const StoredTake& t) {
+      return t.clips.empty() ? 0 : t.clips.size() - 1;
+    };
+    columns(but_one, [](const StoredTake& t, std::size_t i) {
+      return static_cast<std::uint64_t>(t.clips[i].frames);
+    });
+    pack_primaries();
     for (const StoredTake& take : takes_) {
-      if (take.clip) writer_.raw(address_bytes(take.clip->address));
+      for (const StoredClip& clip : take.clips) writer_.raw(address_bytes(clip.address));
     }
+  }
+
+  void pack_primaries() {
+    std::vector<std::uint64_t> takes, indices;
+    for (const StoredTake& take : takes_) {
+      for (const StoredClip& clip : take.clips) {
+        if (clip.kind != ClipKind::repeated) continue;
+        takes.push_back(folded(clip.primary.take - take.record.info.id));
+        indices.push_back(clip.primary.index);
+      }
+    }
+    writer_.numbers(takes);
+    writer_.numbers(indices);
   }
 
   static ShortDigest address_bytes(std::uint64_t address) {

@@ -16,22 +16,6 @@ constexpr std::size_t most_layer_bytes = std::size_t{1} << 30;
   throw Error(ErrorCode::damaged, "the archive is damaged: " + what + " is not as it was written");
 }
 
-ClipRecord clip_row(Statement& row) {
-  ClipRecord clip;
-  clip.id = address_of(row.integer());
-  clip.take = row.integer();
-  clip.first_frame = static_cast<long>(row.integer());
-  clip.frames = static_cast<long>(row.integer());
-  clip.kind = static_cast<ClipKind>(row.integer());
-  clip.group = row.integer();
-  clip.primary = static_cast<std::uint64_t>(row.integer());
-  clip.bytes = static_cast<std::uint64_t>(row.integer());
-  return clip;
-}
-
-constexpr const char* clip_columns =
-    "SELECT address, take, first_frame, frames, kind, family, primary_clip, bytes FROM clips";
-
 /// What a take shares with others of its proportions.
 struct SharedFacts {
   std::int64_t skeleton = 0;
@@ -211,14 +195,11 @@ std::vector<ClipRecord> ArchiveStore::clips(std::span<const std::int64_t> takes)
   for (const std::int64_t take : takes) {
     const auto block = impl_->block(block_of(take));
     const StoredTake* stored = block ? block->find(take) : nullptr;
-    if (stored != nullptr && stored->clip) {
-      clips.push_back(clip_of(take, *stored));
-      continue;
+    if (stored == nullptr) continue;
+    for (ClipRecord& clip : clips_of(take, *stored)) {
+      if (clip.kind == ClipKind::repeated) clip.primary = primary_of(clip).address;
+      clips.push_back(clip);
     }
-    Statement row =
-        impl_->prepare(std::string(clip_columns) + " WHERE take=? ORDER BY first_frame");
-    row.bind(take);
-    while (row.step()) clips.push_back(clip_row(row));
   }
   return clips;
 }

@@ -77,23 +77,17 @@ ArchiveStats ArchiveStore::stats(
 
 void ArchiveStore::count_clips(ArchiveStats& stats) const {
   std::set<std::int64_t> groups;
-  const auto count = [&](ClipKind kind, std::int64_t group, std::size_t clips) {
-    (kind == ClipKind::primary    ? stats.primary_clips
-     : kind == ClipKind::repeated ? stats.repeated_clips
-                                  : stats.unique_clips) += clips;
-    if (group != 0) groups.insert(group);
+  const auto count = [&](const StoredClip& clip) {
+    ++(clip.kind == ClipKind::primary    ? stats.primary_clips
+       : clip.kind == ClipKind::repeated ? stats.repeated_clips
+                                         : stats.unique_clips);
+    if (clip.group != 0) groups.insert(clip.group);
   };
   impl_->for_each_block([&](const TakeBlock& block) {
     for (const StoredTake& take : block.takes) {
-      if (take.clip) count(ClipKind::unique, take.clip->group, 1);
+      for (const StoredClip& clip : take.clips) count(clip);
     }
   });
-  Statement row = impl_->prepare("SELECT kind, family, count(*) FROM clips GROUP BY kind, family");
-  while (row.step()) {
-    const auto kind = static_cast<ClipKind>(row.integer());
-    const std::int64_t group = row.integer();
-    count(kind, group, static_cast<std::size_t>(row.integer()));
-  }
   stats.groups = groups.size();
 }
 

@@ -44,14 +44,6 @@ std::string join_name(const std::string& folder, const std::string& leaf) {
   return folder.empty() ? leaf : folder + "/" + leaf;
 }
 
-std::int64_t stored_address(std::uint64_t address) {
-  return static_cast<std::int64_t>(address ^ (std::uint64_t{1} << 63));
-}
-
-std::uint64_t address_of(std::int64_t stored) {
-  return static_cast<std::uint64_t>(stored) ^ (std::uint64_t{1} << 63);
-}
-
 ShortDigest row_digest(const SkeletonRecord& record) {
   Hasher hasher;
   hasher.add_bytes(record.structure);

@@ -48,6 +48,8 @@ struct ArchiveStore::Impl {
     Bytes data;
   };
   std::optional<OpenBlock> open;
+  /// Of each primary clip the takes that repeat it, where they had to be known in this transaction.
+  std::optional<std::map<ClipPlace, std::set<std::int64_t>>> links;
   /// Proportions of takes that were removed in this transaction.
   std::set<std::int64_t> vacated;
   struct KnownBlock {
@@ -91,15 +93,13 @@ std::int64_t key_of_name(const std::string& name);
 /// Of a take: its leaf, its whole name, and all its clips.
 std::set<std::int64_t> keys_of(const TakeInfo& take, std::span<const ClipRecord> clips);
 
-ClipRecord clip_of(std::int64_t take, const StoredTake& stored);  ///< of a take that is one clip
+/// The clips of a take, without the addresses of their primaries; and back.
+std::vector<ClipRecord> clips_of(std::int64_t take, const StoredTake& stored);
+std::vector<StoredClip> stored_clips(std::int64_t take, std::span<const ClipRecord> clips);
 
 /// "a/b/c" as folder "a/b" and leaf "c".
 std::pair<std::string, std::string> split_name(const std::string& name);
 std::string join_name(const std::string& folder, const std::string& leaf);
-
-/// Clip addresses are unsigned, SQLite's integers signed: moved so that their order stays.
-std::int64_t stored_address(std::uint64_t address);
-std::uint64_t address_of(std::int64_t stored);
 
 /// Digests of rows (docs/format.md).
 ShortDigest row_digest(const SkeletonRecord& record);

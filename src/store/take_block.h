@@ -29,11 +29,15 @@ struct LayerPlace {
   ShortDigest digest{};     ///< of the layer
 };
 
-/// The clip of a take that is one unique clip from its first frame to its last.
-struct WholeTakeClip {
+/// A clip of a take; it begins where the one before it ends.
+struct StoredClip {
   std::uint64_t address = 0;
+  ClipKind kind = ClipKind::unique;
   std::int64_t group = 0;
-  std::uint64_t bytes = 0;
+  long frames = 0;
+  ClipPlace primary;  ///< of a repeated clip; its take is never 0
+
+  friend bool operator==(const StoredClip&, const StoredClip&) = default;
 };
 
 struct StoredTake {
@@ -41,7 +45,7 @@ struct StoredTake {
   /// Without what the rows of proportions and skeleton say, and without the data of layers.
   TakeRecord record;
   std::vector<LayerPlace> places;  ///< one a layer
-  std::optional<WholeTakeClip> clip;
+  std::vector<StoredClip> clips;
 };
 
 struct TakeBlock {

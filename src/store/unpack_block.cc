@@ -13,6 +13,10 @@ namespace {
 /// Names, subjects, descriptions and tags of a block together (bytes).
 constexpr std::size_t most_texts = std::size_t{1} << 28;
 
+constexpr std::int64_t most_id = std::int64_t{1} << 62;
+constexpr std::int64_t most_step = std::int64_t{1} << 61;  ///< from a take to another
+constexpr std::uint64_t most_frames = std::uint64_t{1} << 40;
+
 [[noreturn]] void throw_damaged() {
   throw Error(ErrorCode::damaged, "the archive is damaged: a block of takes makes no sense");
 }
@@ -72,7 +76,6 @@ class Unpacker {
   }
 
   void unpack_numbers() {
-    constexpr std::uint64_t most_id = std::uint64_t{1} << 62, most_frames = std::uint64_t{1} << 40;
     std::size_t next = 0;
     column([&](StoredTake& take, std::uint64_t gap) {
       take.slot = next + checked<std::size_t>(gap, TakeBlockLimits::takes);
@@ -174,20 +177,59 @@ class Unpacker {
   }
 
   void unpack_clips() {
-    counts(1, [](StoredTake& take, std::size_t count) {
-      if (count == 1) take.clip.emplace();
+    unpack_clip_counts();
+    const auto count = [](const StoredTake& t) { return t.clips.size(); };
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      const auto kind = checked<ClipKind>(v, static_cast<std::uint64_t>(ClipKind::unique));
+      if (kind < ClipKind::primary) throw_damaged();
+      t.clips[i].kind = kind;
     });
-    const auto count = [](const StoredTake& t) -> std::size_t { return t.clip ? 1 : 0; };
-    columns(count, [](StoredTake& t, std::size_t, std::uint64_t v) {
-      t.clip->group = static_cast<std::int64_t>(v);
+    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.clips[i].group = checked<std::int64_t>(v, most_id);
     });
-    columns(count, [](StoredTake& t, std::size_t, std::uint64_t v) {
-      t.clip->bytes = size_of_layers(t) + static_cast<std::uint64_t>(unfolded(v));
+    const auto but_one = [](const StoredTake& t) {
+      return t.clips.empty() ? 0 : t.clips.size() - 1;
+    };
+    columns(but_one, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.clips[i].frames = checked<long>(v, most_frames);
     });
+    unpack_primaries();
     for (StoredTake& take : takes()) {
-      if (!take.clip) continue;
-      for (const std::uint8_t byte : reader_.raw(sizeof take.clip->address))
-        take.clip->address = take.clip->address << 8 | byte;
+      long left = take.record.info.frames;
+      for (StoredClip& clip : take.clips) {
+        for (const std::uint8_t byte : reader_.raw(sizeof clip.address))
+          clip.address = clip.address << 8 | byte;
+        if (&clip == &take.clips.back()) clip.frames = left;
+        if (clip.frames > left) throw_damaged();
+        left -= clip.frames;
+      }
+    }
+  }
+
+  /// Each clip has an address further on, so that counts cannot claim more than there is.
+  void unpack_clip_counts() {
+    const std::vector<std::uint64_t> counts = reader_.numbers(takes().size());
+    std::uint64_t left = reader_.left() / sizeof(StoredClip::address);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      takes()[i].clips.resize(checked<std::size_t>(counts[i], left));
+      left -= counts[i];
+    }
+  }
+
+  void unpack_primaries() {
+    std::vector<std::pair<StoredTake*, StoredClip*>> repeated;
+    for (StoredTake& take : takes()) {
+      for (StoredClip& clip : take.clips) {
+        if (clip.kind == ClipKind::repeated) repeated.emplace_back(&take, &clip);
+      }
+    }
+    const std::vector<std::uint64_t> takes_of = reader_.numbers(repeated.size());
+    const std::vector<std::uint64_t> indices = reader_.numbers(repeated.size());
+    for (std::size_t i = 0; i < repeated.size(); ++i) {
+      const std::int64_t step = unfolded(takes_of[i]);
+      if (step > most_step || step < -most_step) throw_damaged();
+      repeated[i].second->primary = {repeated[i].first->record.info.id + step,
+                                     checked<std::size_t>(indices[i], most_frames)};
     }
   }
 

@@ -32,30 +32,14 @@ Bytes stored_form(const LayerRecord& layer, LayerPlace& place) {
   return stored;
 }
 
-/// The clip, if the take is this one clip and no more is to be said of it.
-std::optional<WholeTakeClip> whole_take(const TakeRecord& take, std::span<const ClipRecord> clips) {
-  if (clips.size() != 1) return std::nullopt;
-  const ClipRecord& clip = clips[0];
-  const bool whole = clip.kind == ClipKind::unique && clip.first_frame == 0 &&
-                     clip.frames == take.info.frames && clip.primary == 0 && clip.group >= 0;
-  if (!whole) return std::nullopt;
-  return WholeTakeClip{clip.id, clip.group, clip.bytes};
-}
-
-void insert_clip(const Database& database, std::int64_t take, const ClipRecord& clip) {
-  Statement(
-      database,
-      "INSERT INTO clips(address, take, first_frame, frames, kind, family, primary_clip, bytes) "
-      "VALUES(?,?,?,?,?,?,?,?)")
-      .bind(stored_address(clip.id))
-      .bind(take)
-      .bind(std::int64_t{clip.first_frame})
-      .bind(std::int64_t{clip.frames})
-      .bind(std::int64_t{static_cast<int>(clip.kind)})
-      .bind(clip.group)
-      .bind(static_cast<std::int64_t>(clip.primary))
-      .bind(static_cast<std::int64_t>(clip.bytes))
-      .run();
+/// Clips that follow one another and cover a take.
+[[maybe_unused]] bool cover(const TakeRecord& take, std::span<const ClipRecord> clips) {
+  long at = 0;
+  for (const ClipRecord& clip : clips) {
+    if (clip.first_frame != at) return false;
+    at += clip.frames;
+  }
+  return clips.empty() || at == take.info.frames;
 }
 
 }  // namespace
@@ -136,13 +120,13 @@ std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const Clip
     stored.places.push_back(place);
     stored.record.info.payload_bytes += place.size;
   }
-  stored.clip = whole_take(take, clips);
+  assert(cover(take, clips));
   const std::int64_t id = open.block->id_of(stored);
   stored.record.info.id = id;
+  stored.clips = stored_clips(id, clips);
+  if (std::ranges::any_of(clips, [](const ClipRecord& c) { return c.kind == ClipKind::repeated; }))
+    impl_->links.reset();
   impl_->add_keys(id, keys_of(take.info, clips));
-  if (!stored.clip) {
-    for (const ClipRecord& clip : clips) insert_clip(*impl_->database, id, clip);
-  }
   open.block->takes.push_back(std::move(stored));
   Digest sum = content_sum(*impl_->database);
   add_to_sum(sum, content_of(id));
@@ -150,9 +134,37 @@ std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const Clip
   return id;
 }
 
+void ArchiveStore::change_clips(const std::map<std::int64_t, std::vector<ClipRecord>>& changes) {
+  impl_->flush();
+  Digest sum = content_sum(*impl_->database);
+  for (const auto& [take, clips] : changes) subtract_from_sum(sum, content_of(take));
+  // The takes of a block follow one another in the map: each block is written once.
+  for (auto next = changes.begin(); next != changes.end();) {
+    const auto found = impl_->block(block_of(next->first));
+    TakeBlock block = *found;
+    for (; next != changes.end() && block_of(next->first) == block.id; ++next) {
+      const auto at = std::ranges::find(block.takes, next->first,
+                                        [&](const StoredTake& take) { return block.id_of(take); });
+      std::vector<StoredClip> clips = stored_clips(next->first, next->second);
+      assert(std::ranges::equal(clips, at->clips, {}, &StoredClip::address, &StoredClip::address));
+      at->clips = std::move(clips);
+    }
+    impl_->write_block(block, impl_->block_data(block.id));
+  }
+  for (const auto& [take, clips] : changes) add_to_sum(sum, content_of(take));
+  store_content_sum(*impl_->database, sum);
+}
+
+void ArchiveStore::set_clips(const std::map<std::int64_t, std::vector<ClipRecord>>& clips) {
+  impl_->require_transaction();
+  impl_->links.reset();
+  if (!clips.empty()) change_clips(clips);
+}
+
 void ArchiveStore::remove_take(std::int64_t id) {
   impl_->require_transaction();
   impl_->flush();
+  unlink_take(id);
   const auto found = impl_->block(block_of(id));
   const StoredTake* stored = found ? found->find(id) : nullptr;
   if (stored == nullptr) {
@@ -162,9 +174,7 @@ void ArchiveStore::remove_take(std::int64_t id) {
   Digest sum = content_sum(*impl_->database);
   subtract_from_sum(sum, content_of(id));
   store_content_sum(*impl_->database, sum);
-  const std::int64_t ids[] = {id};
-  impl_->remove_keys(id, keys_of(stored->record.info, clips(ids)));
-  impl_->prepare("DELETE FROM clips WHERE take=?").bind(id).run();
+  impl_->remove_keys(id, keys_of(stored->record.info, clips_of(id, *stored)));
   impl_->vacated.insert(stored->record.proportions);
   Bytes data = impl_->block_data(found->id);
   for (auto place = stored->places.rbegin(); place != stored->places.rend(); ++place) {

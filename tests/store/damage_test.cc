@@ -104,7 +104,7 @@ TEST_F(Damage, NewerFormatsAreNamed) {
 TEST_F(Damage, ForeignTablesAndTriggersAreRefused) {
   for (const char* sql : {"CREATE TABLE more(x)", "CREATE VIEW v AS SELECT 1",
                           "CREATE TRIGGER t AFTER INSERT ON blocks BEGIN DELETE FROM blocks; END",
-                          "CREATE INDEX i ON clips(frames)", "DROP TABLE keys"}) {
+                          "CREATE INDEX i ON keys(take)", "DROP TABLE keys"}) {
     fs::remove(path_);
     make_sample(path_, 1);
     run_sql(sql);
@@ -137,20 +137,28 @@ TEST_F(Damage, RowsThatWereChangedAreErrors) {
 
 TEST_F(Damage, MissingRowsAreFoundByTheCheck) {
   for (const char* sql :
-       {"DELETE FROM clips WHERE take=65", "DELETE FROM blocks WHERE id=1",
-        "UPDATE clips SET frames=1 WHERE take=65", "UPDATE clips SET take=take+5000",
-        "INSERT INTO clips SELECT 70, 0, address, frames, kind, family, primary_clip, bytes FROM "
-        "clips LIMIT 1",
-        "INSERT INTO clips SELECT 9999, 0, address, frames, kind, family, primary_clip, bytes FROM "
-        "clips LIMIT 1",
-        "INSERT INTO keys VALUES(1, 9999)", "DELETE FROM keys WHERE take=66",
-        "UPDATE keys SET key=key+1 WHERE take=67",
+       {"DELETE FROM blocks WHERE id=1", "INSERT INTO keys VALUES(1, 9999)",
+        "DELETE FROM keys WHERE take=66", "UPDATE keys SET key=key+1 WHERE take=67",
         "UPDATE blocks SET data=data||x'00' WHERE id=1"}) {
     fs::remove(path_);
     make_sample(path_, 9);
     ASSERT_TRUE(ArchiveStore::open_for_reading(path_).check_structure().empty());
     run_sql(sql);
     EXPECT_FALSE(ArchiveStore::open_for_reading(path_).check_structure().empty()) << sql;
+  }
+}
+
+TEST_F(Damage, AClipThatRepeatsNothingIsFoundByTheCheck) {
+  // Blocks that are whole, and hold clips whose primaries are not there.
+  for (const ClipPlace& nowhere : {ClipPlace{4711, 0}, ClipPlace{1 << 30, 0}, ClipPlace{0, 7}}) {
+    fs::remove(path_);
+    ArchiveStore store = ArchiveStore::open_for_writing(path_);
+    store.begin();
+    const Ground ground = lay_ground(store);
+    std::vector<ClipRecord> clips = sample_clips(1);
+    clips[1].primary_place = nowhere;
+    EXPECT_THROW(store.add_take(sample_take(ground, 1), clips), Error);
+    store.roll_back();
   }
 }
 

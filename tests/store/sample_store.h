@@ -85,19 +85,21 @@ inline ClipRecord sample_clip(int number) {
   ClipRecord clip;
   clip.id = 0x123456789abcdef0u * static_cast<std::uint64_t>(number + 1);
   clip.frames = 100 + number;
-  clip.bytes = 200;
   return clip;
 }
 
-/// Two of three takes are one clip; the others have a part that repeats one of another.
+/// Two of three takes are one clip; the others have two, of which one may repeat the other.
 inline std::vector<ClipRecord> sample_clips(int number) {
   std::vector<ClipRecord> clips = {sample_clip(number)};
   if (number % 3 == 1) {
     clips[0].frames = 40;
     ClipRecord part = sample_clip(number + 1000);
-    part.kind = number % 2 ? ClipKind::repeated : ClipKind::primary;
     part.group = 1 + number % 4;
-    part.primary = sample_clip(1).id;
+    if (number % 2 != 0) {
+      clips[0].kind = ClipKind::primary;
+      part.kind = ClipKind::repeated;
+      part.primary = clips[0].id;
+    }
     part.first_frame = 40;
     part.frames = 60 + number;
     clips.push_back(part);
