@@ -166,6 +166,7 @@ struct IngestOptions {
   bool replace = false;
   bool dry_run = false;
   bool contacts = true;  ///< feet are held where they stand, in the coarsest layer
+  bool repeats = true;   ///< false: each take is one unique clip without a behaviour group
 };
 
 struct RejectedInput {

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "archive/clip_links.h"
 #include "archive/input_files.h"
 #include "archive/metadata.h"
 #include "archive/parallel.h"
@@ -64,7 +65,7 @@ class Ingest {
     InputFiles inputs = find_input_files(options_.paths, options_.prefix);
     report_.rejected = std::move(inputs.rejected);
     files_ = std::move(inputs.files);
-    total_ = 3 * files_.size();
+    total_ = (options_.repeats ? 4 : 3) * files_.size();
     if (options_.dry_run) {
       if (std::filesystem::exists(archive_)) store_ = ArchiveStore::open_for_reading(archive_);
     } else {
@@ -73,7 +74,12 @@ class Ingest {
     survey();
     if (!options_.dry_run) {
       store_structures();
+      if (options_.repeats) {
+        plan_ = plan_clips(archive_, fresh_, spaces_, options_,
+                           [&](const std::string& current) { tick(current); });
+      }
       code_and_store();
+      link_clips(*store_, plan_, {report_.added.begin(), report_.added.end()});
     }
     std::sort(report_.rejected.begin(), report_.rejected.end(),
               [](const RejectedInput& a, const RejectedInput& b) { return a.path < b.path; });
@@ -209,13 +215,31 @@ class Ingest {
       coded.record = make_record(
           fresh, take, assignment,
           make_layers(options_.fidelity, *assignment.space, take, text, std::move(fitted)));
-      coded.clips.push_back(
-          whole_take_clip(fresh.outline.content, take.frames(), bytes_of_layers(coded.record)));
+      coded.clips = clips_of(fresh, take);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
       coded.rejected = rejection(fresh.file, error);
     }
     return coded;
+  }
+
+  /// As planned, but not yet linked: all takes have to be stored first.
+  std::vector<ClipRecord> clips_of(const FreshTake& fresh, const Take& take) const {
+    const auto planned = plan_.takes.find(fresh.file.name);
+    if (planned == plan_.takes.end())
+      return {whole_take_clip(fresh.outline.content, take.frames())};
+    std::vector<ClipRecord> clips;
+    for (const PlannedClip& part : planned->second) {
+      ClipRecord clip = whole_take_clip(fresh.outline.content, part.frames);
+      if (part.frames != take.frames()) {
+        clip.id = clip_address(
+            content_digest(*take.skeleton, take.channels, part.first_frame, part.frames));
+      }
+      clip.first_frame = part.first_frame;
+      clip.group = part.group;
+      clips.push_back(clip);
+    }
+    return clips;
   }
 
   TakeRecord make_record(const FreshTake& fresh, const Take& take,
@@ -250,6 +274,7 @@ class Ingest {
   std::vector<FreshTake> fresh_;
   std::vector<FreshTake> unkept_;
   std::map<std::string, SpaceAssignment> spaces_;
+  ClipPlan plan_;
   std::optional<ArchiveStore> store_;
   std::vector<std::string> pending_;
   IngestReport report_;

@@ -92,12 +92,11 @@ std::string subject_of(const InputFile& file, const Take& take) {
   return take.skeleton->asf_name.empty() ? file.folder : take.skeleton->asf_name;
 }
 
-ClipRecord whole_take_clip(const Digest& content, long frames, std::uint64_t bytes) {
+ClipRecord whole_take_clip(const Digest& content, long frames) {
   ClipRecord clip;
   clip.id = clip_address(content);
   clip.kind = ClipKind::unique;
   clip.frames = frames;
-  clip.bytes = bytes;
   return clip;
 }
 

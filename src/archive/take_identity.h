@@ -55,6 +55,6 @@ std::uint64_t clip_address(const Digest& content);
 /// The metadata's subject comes first; else the ASF's name, else the folder's.
 std::string subject_of(const InputFile& file, const Take& take);
 
-ClipRecord whole_take_clip(const Digest& content, long frames, std::uint64_t bytes);
+ClipRecord whole_take_clip(const Digest& content, long frames);
 
 }  // namespace reprise

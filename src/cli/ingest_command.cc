@@ -106,6 +106,8 @@ void IngestCommand::setup(CLI::App& app) {
   app.add_flag("--replace", options_.replace, "Replace takes that are there with other content");
   app.add_flag("!--no-contacts", options_.contacts,
                "Do not hold feet where they stand: for comparison; they slide more");
+  app.add_flag("!--no-repeats", options_.repeats,
+               "Look for no repeated motion: each take is one unique clip");
   app.add_flag("--dry-run", options_.dry_run, "Say what would be done, and write nothing");
   add_examples(app, {"reprise ingest lib.rpz takes/",
                      "reprise ingest lib.rpz cmu/ --fps 120 --fidelity exact"});

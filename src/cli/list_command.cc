@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <set>
+
 #include "cli/json_output.h"
 #include "cli/text.h"
 #include "reprise/error.h"
@@ -50,6 +53,61 @@ std::string clips_table(const std::vector<ClipInfo>& clips, bool bold) {
   return table.text(bold);
 }
 
+/// What the clips of one behaviour group are.
+struct GroupSummary {
+  std::size_t primary = 0, repeated = 0, unique = 0;
+  std::set<std::string> takes, subjects;
+  double seconds = 0;
+};
+
+std::map<std::int64_t, GroupSummary> groups_of(const Archive& archive, const TakeFilter& filter) {
+  std::map<std::string, std::string> subjects;
+  for (const TakeInfo& take : archive.takes(filter)) subjects[take.name] = take.subject;
+  std::map<std::int64_t, GroupSummary> groups;
+  for (const ClipInfo& clip : archive.clips(filter)) {
+    GroupSummary& group = groups[clip.group];
+    ++(clip.kind == ClipKind::primary    ? group.primary
+       : clip.kind == ClipKind::repeated ? group.repeated
+                                         : group.unique);
+    group.takes.insert(clip.take);
+    if (const std::string& subject = subjects[clip.take]; !subject.empty())
+      group.subjects.insert(subject);
+    group.seconds += clip.end - clip.start;
+  }
+  return groups;
+}
+
+std::string groups_table(const std::map<std::int64_t, GroupSummary>& groups, bool bold) {
+  Table table({{"GROUP", right},
+               {"TAKES", right},
+               {"SUBJECTS", right},
+               {"PRIMARY", right},
+               {"REPEATED", right},
+               {"UNIQUE", right},
+               {"LENGTH", right}});
+  for (const auto& [id, group] : groups) {
+    table.add({std::to_string(id), std::to_string(group.takes.size()),
+               std::to_string(group.subjects.size()), std::to_string(group.primary),
+               std::to_string(group.repeated), std::to_string(group.unique),
+               format_number(group.seconds, 2)});
+  }
+  return table.text(bold);
+}
+
+Json document_of(const std::map<std::int64_t, GroupSummary>& groups) {
+  Json entries = Json::array();
+  for (const auto& [id, group] : groups) {
+    entries.push_back(
+        {{"id", id},
+         {"takes", group.takes.size()},
+         {"subjects", group.subjects.size()},
+         {"clips",
+          {{"primary", group.primary}, {"repeated", group.repeated}, {"unique", group.unique}}},
+         {"seconds", group.seconds}});
+  }
+  return {{"groups", entries}};
+}
+
 std::string skeletons_table(const std::vector<SkeletonInfo>& skeletons, bool bold) {
   Table table({{"SKELETON", right},
                {"FORMAT", left},
@@ -86,6 +144,7 @@ ClipKind parse_kind(const std::string& text) {
 void ListCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
   app.add_flag("--clips", clips_, "List clips instead of takes");
+  app.add_flag("--groups", groups_, "List behaviour groups instead of takes");
   app.add_flag("--skeletons", skeletons_, "List skeletons instead of takes");
   app.add_option("--take", filter_.take, "Only of this take: its name or the end of it")
       ->type_name("NAME");
@@ -102,13 +161,14 @@ void ListCommand::setup(CLI::App& app) {
 }
 
 void ListCommand::check() {
-  if (clips_ && skeletons_) {
-    throw Error(ErrorCode::usage, "--clips and --skeletons exclude each other");
+  if (int{clips_} + int{groups_} + int{skeletons_} > 1) {
+    throw Error(ErrorCode::usage, "--clips, --groups and --skeletons exclude each other");
   }
   const bool filtered = !filter_.take.empty() || !filter_.subject.empty() ||
                         !filter_.text.empty() || filter_.kind.has_value();
   if (skeletons_ && filtered) {
-    throw Error(ErrorCode::usage, "the filters are for takes and clips, not for --skeletons");
+    throw Error(ErrorCode::usage,
+                "the filters are for takes, clips and groups, not for --skeletons");
   }
 }
 
@@ -119,6 +179,10 @@ ExitCode ListCommand::run(Console& console) {
     const auto clips = archive.clips(filter_);
     console.result(clips_table(clips, bold));
     console.document(document_of("clips", clips));
+  } else if (groups_) {
+    const auto groups = groups_of(archive, filter_);
+    console.result(groups_table(groups, bold));
+    console.document(document_of(groups));
   } else if (skeletons_) {
     const auto skeletons = archive.skeletons();
     console.result(skeletons_table(skeletons, bold));

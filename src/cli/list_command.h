@@ -17,6 +17,7 @@ class ListCommand : public Command {
   std::filesystem::path archive_;
   TakeFilter filter_;
   bool clips_ = false;
+  bool groups_ = false;
   bool skeletons_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "query/archive_impl.h"
+#include "query/clip_info.h"
 #include "query/error_sketch.h"
 #include "query/take_decoder.h"
 #include "reprise/error.h"
@@ -17,28 +18,6 @@ constexpr std::size_t least_id_digits = 4;
 constexpr std::size_t id_digits = 16;
 /// How many candidates an error about an ambiguous ID names.
 constexpr std::size_t most_candidates = 10;
-
-std::string hexadecimal_id(std::uint64_t address) {
-  Bytes bytes;
-  for (int shift = 56; shift >= 0; shift -= 8)
-    bytes.push_back(static_cast<std::uint8_t>(address >> shift));
-  return hexadecimal(bytes);
-}
-
-ClipInfo clip_info(const ClipRecord& record, const TakeInfo& take) {
-  ClipInfo info;
-  info.id = hexadecimal_id(record.id);
-  info.take = take.name;
-  info.kind = record.kind;
-  info.group = record.group;
-  info.first_frame = record.first_frame;
-  info.frames = record.frames;
-  info.start = static_cast<double>(record.first_frame) / take.frame_rate;
-  info.end = static_cast<double>(record.first_frame + record.frames) / take.frame_rate;
-  if (record.kind == ClipKind::repeated) info.primary = hexadecimal_id(record.primary);
-  info.bytes = record.bytes;
-  return info;
-}
 
 bool may_be_clip_id(const std::string& id) {
   return id.size() >= least_id_digits && id.size() <= id_digits &&

@@ -30,11 +30,11 @@ MatrixXd similarities(const MatrixXd& distances) {
   return (-(distances / width).array().square()).exp();
 }
 
-/// Parts a set of segments in two again and again, while the cut is cheap.
+/// Parts a set of segments in two again and again, until what is together is near enough.
 class NormalisedCut {
  public:
-  NormalisedCut(const MatrixXd& weights, double most_cut)
-      : weights_(weights), most_cut_(most_cut) {}
+  NormalisedCut(const MatrixXd& distances, double most_distance)
+      : distances_(distances), weights_(similarities(distances)), most_distance_(most_distance) {}
 
   std::vector<std::vector<Eigen::Index>> run() {
     std::vector<Eigen::Index> all(static_cast<std::size_t>(weights_.rows()));
@@ -45,17 +45,24 @@ class NormalisedCut {
 
  private:
   void part(const std::vector<Eigen::Index>& set) {
-    std::vector<Eigen::Index> left, right;
-    if (set.size() < 2 || best_cut(set, left, right) > most_cut_) {
+    if (mean_distance(set) <= most_distance_) {
       parts_.push_back(set);
       return;
     }
+    std::vector<Eigen::Index> left, right;
+    cut_in_two(set, left, right);
     part(left);
     part(right);
   }
 
+  double mean_distance(const std::vector<Eigen::Index>& set) const {
+    if (set.size() < 2) return 0;
+    const auto count = static_cast<double>(set.size());
+    return distances_(set, set).sum() / (count * (count - 1));
+  }
+
   /// The cheapest cut along the second eigenvector of the normalised Laplacian.
-  double best_cut(const std::vector<Eigen::Index>& set, std::vector<Eigen::Index>& left,
+  void cut_in_two(const std::vector<Eigen::Index>& set, std::vector<Eigen::Index>& left,
                   std::vector<Eigen::Index>& right) const {
     const MatrixXd w = weights_(set, set);
     const VectorXd degree = w.rowwise().sum();
@@ -90,11 +97,11 @@ class NormalisedCut {
     for (std::size_t k = 0; k < order.size(); ++k) {
       (k < best_count ? left : right).push_back(set[order[k]]);
     }
-    return best;
   }
 
-  const MatrixXd& weights_;
-  double most_cut_;
+  const MatrixXd& distances_;
+  MatrixXd weights_;
+  double most_distance_;
   std::vector<std::vector<Eigen::Index>> parts_;
 };
 
@@ -150,7 +157,7 @@ std::vector<int> group_segments(std::span<const SegmentShape> segments,
           segment_distance(segments[sample[i]], segments[sample[k]], constants);
     }
   }
-  const auto parts = NormalisedCut(similarities(distances), constants.most_cut).run();
+  const auto parts = NormalisedCut(distances, constants.most_distance).run();
   std::vector<int> groups(segments.size(), -1);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (const Eigen::Index i : parts[p]) {
@@ -173,6 +180,34 @@ std::vector<int> group_segments(std::span<const SegmentShape> segments,
     }
   }
   return renumbered(groups);
+}
+
+std::vector<std::int64_t> join_groups(std::span<const SegmentShape> segments,
+                                      std::span<const KnownSegment> known, std::int64_t next_group,
+                                      const GroupConstants& constants) {
+  std::vector<std::int64_t> groups(segments.size(), 0);
+  std::vector<SegmentShape> others;
+  std::vector<std::size_t> place;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    std::map<std::int64_t, std::pair<double, double>> sums;  // of a group: distances, segments
+    for (const KnownSegment& segment : known) {
+      auto& [sum, count] = sums[segment.group];
+      sum += segment_distance(segments[s], segment.shape, constants);
+      count += 1;
+    }
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& [group, sum] : sums) {
+      if (sum.first / sum.second >= best) continue;
+      best = sum.first / sum.second;
+      groups[s] = group;
+    }
+    if (best <= constants.most_distance) continue;
+    others.push_back(segments[s]);
+    place.push_back(s);
+  }
+  const std::vector<int> found = group_segments(others, constants);
+  for (std::size_t i = 0; i < place.size(); ++i) groups[place[i]] = next_group + found[i];
+  return groups;
 }
 
 }  // namespace reprise

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,9 +16,10 @@ struct GroupConstants {
   /// w(p) halves from axis to axis, scaled to a sum of 1: about as the variance of the axes falls.
   /// The paper only says that it decreases.
   double axis_weight = 0.5;
-  /// A group is parted while the normalised cut that does so costs less than this (of 2). The paper
-  /// leaves it open. Measured (docs/findings/2026-11-25-behaviours.md).
-  double most_cut = 0.8;
+  /// The dissimilarity threshold: a group is parted while its segments are further apart than this
+  /// on average, and a segment joins a known group that is no further. The paper leaves it open.
+  /// Measured (docs/findings/2026-11-25-behaviours.md).
+  double most_distance = 0.8;
   /// Segments beyond this many join the group of the sampled ones they are most like, so that the
   /// matrix stays small.
   std::size_t most_sampled = 600;
@@ -41,5 +43,17 @@ double segment_distance(const SegmentShape& a, const SegmentShape& b,
 /// are is found.
 std::vector<int> group_segments(std::span<const SegmentShape> segments,
                                 const GroupConstants& constants = {});
+
+/// A segment whose group stands.
+struct KnownSegment {
+  SegmentShape shape;
+  std::int64_t group = 0;
+};
+
+/// The same beside groups that stand: a segment joins the one that it is nearest to on average, if
+/// that is near enough; the rest are grouped among themselves, counted from `next_group` on.
+std::vector<std::int64_t> join_groups(std::span<const SegmentShape> segments,
+                                      std::span<const KnownSegment> known, std::int64_t next_group,
+                                      const GroupConstants& constants = {});
 
 }  // namespace reprise

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -24,18 +25,26 @@ double standard_deviation(const std::vector<double>& values) {
 struct Proposal {
   double gain = 0;
   ChosenClip primary;
+  std::optional<std::size_t> standing;  ///< index of the primary, if it stands already
   std::vector<ChosenClip> repeated;
 };
 
 class Chooser {
  public:
   Chooser(const PostureLibrary& library, const RepeatConstants& constants,
-          const ClipChoiceConstants& choice)
+          const ClipChoiceConstants& choice, std::span<const ChosenClip> standing)
       : library_(library),
         least_(std::max(2L, std::lround(choice.least_s * constants.rate))),
+        least_repeated_(std::max(2L, std::lround(choice.least_repeated_s * constants.rate))),
         least_primary_(std::max(2L, std::lround(choice.least_primary_s * constants.rate))) {
     for (const PostureMatrix& take : library.postures) {
       free_.emplace_back(static_cast<std::size_t>(take.rows()), true);
+    }
+    for (const ChosenClip& clip : standing) {
+      if (clip.role != ClipRole::repeated)
+        standing_[std::tuple(clip.take, clip.begin, clip.end)] = clips_.size();
+      occupy(clip);
+      clips_.push_back(clip);
     }
   }
 
@@ -84,9 +93,14 @@ class Chooser {
 
   std::optional<Proposal> propose(const RepeatGroup& group) const {
     const Occurrence& reference = group.occurrences.front();
-    const auto run = free_run(reference.take, reference.begin, reference.end, least_primary_);
+    const auto known = standing_.find(std::tuple(reference.take, reference.begin, reference.end));
+    const bool stands = known != standing_.end();
+    const auto run = stands
+                         ? std::pair(reference.begin, reference.end)
+                         : free_run(reference.take, reference.begin, reference.end, least_primary_);
     if (!run) return std::nullopt;
     Proposal proposal;
+    if (stands) proposal.standing = known->second;
     proposal.primary = {reference.take, run->first, run->second, ClipRole::primary, 0, {}};
     const PostureMatrix& own = library_.projected[reference.take];
     double before = primary_cost(own, run->first, run->second), after = before;
@@ -103,7 +117,9 @@ class Chooser {
       samples += clip->end - clip->begin;
       proposal.repeated.push_back(std::move(*clip));
     }
-    if (samples < run->second - run->first || after <= 0) return std::nullopt;
+    // What stands is stored already, and pays with its first repeat.
+    const long least = stands ? 1 : run->second - run->first;
+    if (samples < least || after <= 0) return std::nullopt;
     proposal.gain = before / after;
     return proposal;
   }
@@ -115,7 +131,8 @@ class Chooser {
     const auto at = [&](long sample) {
       return member.map[static_cast<std::size_t>(sample - reference.begin)];
     };
-    const auto run = free_run(member.take, at(primary.first), at(primary.second - 1) + 1, least_);
+    const auto run =
+        free_run(member.take, at(primary.first), at(primary.second - 1) + 1, least_repeated_);
     if (!run) return std::nullopt;
     const auto overlaps = [&](const ChosenClip& clip) {
       return clip.take == member.take && run->first < clip.end && clip.begin < run->second;
@@ -134,9 +151,13 @@ class Chooser {
   }
 
   void accept(const Proposal& proposal) {
-    const std::size_t primary = clips_.size();
-    clips_.push_back(proposal.primary);
-    occupy(proposal.primary);
+    const std::size_t primary = proposal.standing.value_or(clips_.size());
+    if (proposal.standing) {
+      clips_[primary].role = ClipRole::primary;
+    } else {
+      clips_.push_back(proposal.primary);
+      occupy(proposal.primary);
+    }
     for (ChosenClip clip : proposal.repeated) {
       clip.primary = primary;
       occupy(clip);
@@ -199,7 +220,8 @@ class Chooser {
   }
 
   const PostureLibrary& library_;
-  long least_, least_primary_;
+  long least_, least_repeated_, least_primary_;
+  std::map<std::tuple<std::size_t, long, long>, std::size_t> standing_;  ///< take, begin, end
   std::vector<std::vector<bool>> free_;
   std::vector<ChosenClip> clips_;
 };
@@ -229,8 +251,9 @@ double repeated_cost(const PostureMatrix& take, long begin, long end, const Post
 std::vector<ChosenClip> choose_clips(const PostureLibrary& library,
                                      std::span<const RepeatGroup> groups,
                                      const RepeatConstants& constants,
-                                     const ClipChoiceConstants& choice) {
-  Chooser chooser(library, constants, choice);
+                                     const ClipChoiceConstants& choice,
+                                     std::span<const ChosenClip> standing) {
+  Chooser chooser(library, constants, choice, standing);
   chooser.choose(groups);
   return chooser.finish();
 }

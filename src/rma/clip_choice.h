@@ -10,9 +10,10 @@
 namespace reprise {
 
 struct ClipChoiceConstants {
-  /// A unique or repeated clip shorter than this merges with a neighbour (s). lin-2011
-  /// section 4.2.2.
+  /// A unique clip shorter than this merges with a neighbour (s), and none that repeats another is
+  /// shorter. lin-2011 section 4.2.2.
   double least_s = 0.2;
+  double least_repeated_s = 0.2;
   /// The shortest primary (s): below it a clip's row costs more than it can save.
   double least_primary_s = 0.6;
 };
@@ -43,10 +44,13 @@ double repeated_cost(const PostureMatrix& take, long begin, long end, const Post
 /// Equation 5: the group with the greatest gain makes its reference a primary and its members
 /// repeated clips, as far as they are not part of a clip yet; what is left over stays for the
 /// groups after it. A primary's repeats have at least as many samples as it has. The clips of a
-/// take follow one another and cover all of it.
+/// take follow one another and cover all of it. `standing` clips cover some takes already. They
+/// stay, and come back at their place; others may repeat them, in groups around just these clips,
+/// and then a unique one becomes primary.
 std::vector<ChosenClip> choose_clips(const PostureLibrary& library,
                                      std::span<const RepeatGroup> groups,
                                      const RepeatConstants& constants,
-                                     const ClipChoiceConstants& choice = {});
+                                     const ClipChoiceConstants& choice = {},
+                                     std::span<const ChosenClip> standing = {});
 
 }  // namespace reprise

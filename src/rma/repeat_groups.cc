@@ -55,6 +55,9 @@ class GroupFinder {
     return groups;
   }
 
+  /// A clip and what repeats it.
+  RepeatGroup members_of(const Occurrence& clip) const;
+
  private:
   void add_explained(const Occurrence& member) {
     members_[member.take].push_back({member.begin, member.end});
@@ -64,7 +67,8 @@ class GroupFinder {
 
   bool is_explained(const ClipExtent& extent) const {
     const std::vector<bool>& covered = covered_[extent.take];
-    const auto known = std::count(covered.begin() + extent.begin, covered.begin() + extent.end, true);
+    const auto known =
+        std::count(covered.begin() + extent.begin, covered.begin() + extent.end, true);
     if (static_cast<double>(known) >=
         constants_.explained_cover * static_cast<double>(extent.end - extent.begin)) {
       return true;
@@ -91,7 +95,6 @@ class GroupFinder {
     return other.occurrences.size() > group.occurrences.size() ? other : group;
   }
 
-  RepeatGroup members_of(const Occurrence& clip) const;
   std::vector<Stretch> stretches_near(const Occurrence& clip) const;
 
   const PostureLibrary& library_;
@@ -198,6 +201,28 @@ std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
     std::erase_if(extents, [&](const ClipExtent& extent) { return extent.take != *only_take; });
   }
   return GroupFinder(library, near_pairs, constants, jobs).run(extents);
+}
+
+std::vector<RepeatGroup> find_groups_from(const PostureLibrary& library,
+                                          std::span<const NearPair> near_pairs,
+                                          std::size_t first_take, const RepeatConstants& constants,
+                                          unsigned jobs) {
+  std::vector<ClipExtent> extents = find_clip_extents(library, near_pairs, constants, jobs);
+  std::erase_if(extents, [&](const ClipExtent& extent) { return extent.take < first_take; });
+  return GroupFinder(library, near_pairs, constants, jobs).run(extents);
+}
+
+std::vector<RepeatGroup> find_groups_of(const PostureLibrary& library,
+                                        std::span<const NearPair> near_pairs,
+                                        std::span<const Occurrence> clips,
+                                        const RepeatConstants& constants, unsigned jobs) {
+  const GroupFinder finder(library, near_pairs, constants, jobs);
+  std::vector<RepeatGroup> groups;
+  for (const Occurrence& clip : clips) {
+    RepeatGroup group = finder.members_of(clip);
+    if (group.occurrences.size() > 1) groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& clip,

@@ -62,6 +62,18 @@ std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
                                             std::span<const NearPair> near_pairs,
                                             std::optional<std::size_t> only_take,
                                             const RepeatConstants& constants, unsigned jobs = 1);
+/// The same with references in the takes from `first_take` on.
+std::vector<RepeatGroup> find_groups_from(const PostureLibrary& library,
+                                          std::span<const NearPair> near_pairs,
+                                          std::size_t first_take, const RepeatConstants& constants,
+                                          unsigned jobs = 1);
+
+/// The same, around given clips only: of each what repeats it, without looking for a better
+/// reference. Clips that nothing repeats have no group.
+std::vector<RepeatGroup> find_groups_of(const PostureLibrary& library,
+                                        std::span<const NearPair> near_pairs,
+                                        std::span<const Occurrence> clips,
+                                        const RepeatConstants& constants, unsigned jobs = 1);
 
 /// The repeats of one clip, by looking at all of the library; with the clip alone where there are
 /// none.

@@ -37,6 +37,20 @@ TEST(BehaviourGroups, MoreSegmentsThanAreSampledJoinThem) {
   expect_groups(group_segments(shapes_of(5, 20), constants), 5);
 }
 
+TEST(BehaviourGroups, WhatComesLaterJoinsWhatFits) {
+  const std::vector<SegmentShape> shapes = shapes_of(5, 4);
+  std::vector<KnownSegment> known;
+  // Behaviours 0 and 2 are known, as groups 17 and 4.
+  for (std::size_t s = 0; s < shapes.size() / 2; ++s) {
+    if (s % 5 == 0) known.push_back({shapes[s], 17});
+    if (s % 5 == 2) known.push_back({shapes[s], 4});
+  }
+  const std::vector<std::int64_t> groups = join_groups(shapes, known, 30);
+  const std::vector<std::int64_t> expected = {17, 30, 4, 31, 32};
+  for (std::size_t s = 0; s < groups.size(); ++s) EXPECT_EQ(groups[s], expected[s % 5]) << s;
+  EXPECT_TRUE(join_groups({}, known, 30).empty());
+}
+
 TEST(BehaviourGroups, OneSegmentIsOneGroup) {
   EXPECT_EQ(group_segments(shapes_of(1, 1)), std::vector<int>{0});
   EXPECT_TRUE(group_segments({}).empty());

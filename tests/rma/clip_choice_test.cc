@@ -116,5 +116,34 @@ TEST(ClipCosts, AreDeviationsTimesLength) {
   EXPECT_NEAR(repeated_cost(take, 1, 4, other, reference), 3 * std::sqrt(2.0 / 9), 1e-6);
 }
 
+TEST(ClipChoice, StandingClipsStayAndAreRepeated) {
+  const PostureLibrary library = planted_library();
+  const auto pairs = find_near_pairs(library, constants);
+  // Take 0 is stored: its planted clip by itself, and another one that nothing repeats.
+  const long rows = library.postures[0].rows();
+  const std::vector<ChosenClip> standing = {{0, 0, 45, ClipRole::unique, 0, {}},
+                                            {0, 45, 75, ClipRole::unique, 1, {}},
+                                            {0, 75, rows, ClipRole::unique, 2, {}}};
+  std::vector<Occurrence> references;
+  for (const ChosenClip& clip : standing)
+    references.push_back({clip.take, clip.begin, clip.end, 0});
+  const auto groups = find_groups_of(library, pairs, references, constants);
+  const auto clips = choose_clips(library, groups, constants, {}, standing);
+  for (std::size_t c = 0; c < standing.size(); ++c) {
+    EXPECT_EQ(clips[c].take, 0u);
+    EXPECT_EQ(clips[c].begin, standing[c].begin);
+    EXPECT_EQ(clips[c].end, standing[c].end);
+  }
+  EXPECT_EQ(clips[1].role, ClipRole::primary);
+  std::size_t repeats = 0;
+  for (const ChosenClip& clip : clips) {
+    if (clip.role != ClipRole::repeated) continue;
+    EXPECT_EQ(clip.primary, 1u);
+    EXPECT_GT(clip.take, 0u);
+    ++repeats;
+  }
+  EXPECT_EQ(repeats, 2u);
+}
+
 }  // namespace
 }  // namespace reprise

@@ -1,0 +1,157 @@
+// Clips and behaviour groups: what an ingest makes of takes, and what later changes make of that.
+#include <map>
+#include <set>
+
+#include "cli/command_runner.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+using nlohmann::json;
+
+class ClipsTest : public CommandTest {
+ protected:
+  void SetUp() override {
+    make_library({"--takes", "6", "--seconds", "8", "--subjects", "2", "--seed", "3"},
+                 {"--fidelity", "preview"});
+  }
+
+  json clips(const std::string& archive = "lib.rpz") const {
+    return document({"list", archive, "--clips"}).at("clips");
+  }
+
+  /// Clips cover their takes one after another, and repeated ones have a primary that is there.
+  void expect_sound(const json& all, const std::string& archive = "lib.rpz") const {
+    std::map<std::string, long> frames, at;
+    const json takes = document({"list", archive});
+    for (const json& take : takes["takes"]) frames[take["name"]] = take["frames"];
+    std::set<std::string> primaries, repeated;
+    for (const json& clip : all) {
+      EXPECT_EQ(clip["first_frame"], at[clip["take"]]);
+      EXPECT_GT(clip["frames"].get<long>(), 0);
+      at[clip["take"]] += clip["frames"].get<long>();
+      if (clip["kind"] == "primary") primaries.insert(clip["id"]);
+      EXPECT_EQ(clip["kind"] == "repeated", clip.contains("primary"));
+      if (clip.contains("primary")) repeated.insert(clip["primary"]);
+    }
+    EXPECT_EQ(at, frames);
+    EXPECT_EQ(primaries, repeated);
+    EXPECT_TRUE(document({"verify", archive})["ok"].get<bool>());
+  }
+
+  static std::size_t count(const json& all, const std::string& kind) {
+    std::size_t found = 0;
+    for (const json& clip : all) found += clip["kind"] == kind;
+    return found;
+  }
+};
+
+TEST_F(ClipsTest, TakesAreCutIntoClipsOfKindsAndGroups) {
+  const json all = clips();
+  expect_sound(all);
+  EXPECT_GT(count(all, "repeated"), 0u);
+  const json stats = document({"stats", "lib.rpz"});
+  for (const char* kind : {"primary", "repeated", "unique"})
+    EXPECT_EQ(stats["clips"][kind], count(all, kind));
+  std::size_t clips_of_groups = 0;
+  const json groups = document({"list", "lib.rpz", "--groups"});
+  EXPECT_EQ(groups["groups"].size(), stats["groups"]);
+  for (const json& group : groups["groups"]) {
+    EXPECT_GT(group["id"].get<int>(), 0);
+    EXPECT_GT(group["seconds"].get<double>(), 0);
+    for (const json& number : group["clips"]) clips_of_groups += number.get<std::size_t>();
+  }
+  EXPECT_EQ(clips_of_groups, all.size());
+}
+
+TEST_F(ClipsTest, AClipIsKnownByItsId) {
+  const json all = clips();
+  const json* repeated = nullptr;
+  for (const json& clip : all) {
+    if (clip["kind"] == "repeated") repeated = &clip;
+  }
+  ASSERT_NE(repeated, nullptr);
+  const std::string id = (*repeated)["id"];
+  const json known = document({"info", "lib.rpz", id});
+  EXPECT_EQ(known["clips"][0], *repeated);
+  const json extracted = document({"extract", "lib.rpz", id, "-d", "out"});
+  EXPECT_EQ(extracted["extracted"][0]["frames"], (*repeated)["frames"]);
+  const json only = document({"list", "lib.rpz", "--clips", "--kind", "repeated"});
+  EXPECT_EQ(only["clips"].size(), count(all, "repeated"));
+  EXPECT_EQ(reprise({"list", "lib.rpz", "--clips", "--groups"}).exit_code, 2);
+}
+
+TEST_F(ClipsTest, IdsDependOnContentAlone) {
+  std::set<std::string> ids, again;
+  for (const json& clip : clips()) ids.insert(clip["id"]);
+  output({"ingest", "fine.rpz", "takes", "--fidelity", "fine", "--quiet"});
+  const json fine = clips("fine.rpz");
+  for (const json& clip : fine) again.insert(clip["id"]);
+  EXPECT_EQ(ids, again);
+}
+
+TEST_F(ClipsTest, WithoutRepeatsEachTakeIsOneClip) {
+  output({"ingest", "plain.rpz", "takes", "--fidelity", "preview", "--no-repeats", "--quiet"});
+  const json all = clips("plain.rpz");
+  EXPECT_EQ(all.size(), take_names().size());
+  for (const json& clip : all) {
+    EXPECT_EQ(clip["kind"], "unique");
+    EXPECT_EQ(clip["group"], 0);
+  }
+  expect_sound(all, "plain.rpz");
+}
+
+TEST_F(ClipsTest, ARemovedPrimaryLeavesItsRepeatsWhole) {
+  std::map<std::string, std::string> take_of;
+  const json all = clips();
+  for (const json& clip : all) take_of[clip["id"]] = clip["take"];
+  std::string primary, other;
+  for (const json& clip : all) {
+    if (clip["kind"] == "repeated" && take_of[clip["primary"]] != clip["take"]) {
+      primary = take_of[clip["primary"]];
+      other = clip["id"];
+    }
+  }
+  ASSERT_FALSE(primary.empty());
+  output({"remove", "lib.rpz", primary});
+  const json left = clips();
+  expect_sound(left);
+  for (const json& clip : left) EXPECT_NE(clip["take"], primary);
+  output({"extract", "lib.rpz", other, "-d", "out"});
+}
+
+TEST_F(ClipsTest, ATakeThatComesLaterRepeatsWhatIsStored) {
+  const json before = clips();
+  // The same motion once more, under other names.
+  output({"ingest", "lib.rpz", "takes", "--fidelity", "preview", "--prefix", "again", "--quiet"});
+  const json after = clips();
+  expect_sound(after);
+  std::map<std::string, std::set<std::string>> stored, groups;
+  std::map<std::string, std::string> take_of;
+  for (const json& clip : before) {
+    stored[clip["take"]].insert(clip["id"].get<std::string>() + clip["first_frame"].dump());
+    take_of[clip["id"]] = clip["take"];
+    groups["before"].insert(clip["group"].dump());
+  }
+  double repeated = 0, seconds = 0;
+  for (const json& clip : after) {
+    const std::string take = clip["take"];
+    if (!take.starts_with("again/")) {
+      EXPECT_TRUE(
+          stored[take].contains(clip["id"].get<std::string>() + clip["first_frame"].dump()));
+      continue;
+    }
+    groups["after"].insert(clip["group"].dump());
+    const double length = clip["end"].get<double>() - clip["start"].get<double>();
+    seconds += length;
+    if (clip.contains("primary") && take_of.contains(clip["primary"])) repeated += length;
+  }
+  EXPECT_GT(repeated, 0.5 * seconds);
+  for (const std::string& group : groups["after"])
+    EXPECT_TRUE(groups["before"].contains(group)) << group;
+}
+
+}  // namespace
+}  // namespace reprise::cli
