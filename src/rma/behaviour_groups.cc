@@ -33,8 +33,8 @@ MatrixXd similarities(const MatrixXd& distances) {
 /// Parts a set of segments in two again and again, until what is together is near enough.
 class NormalisedCut {
  public:
-  NormalisedCut(const MatrixXd& distances, double most_distance)
-      : distances_(distances), weights_(similarities(distances)), most_distance_(most_distance) {}
+  NormalisedCut(const MatrixXd& distances, const GroupConstants& constants)
+      : distances_(distances), weights_(similarities(distances)), constants_(constants) {}
 
   std::vector<std::vector<Eigen::Index>> run() {
     std::vector<Eigen::Index> all(static_cast<std::size_t>(weights_.rows()));
@@ -45,24 +45,24 @@ class NormalisedCut {
 
  private:
   void part(const std::vector<Eigen::Index>& set) {
-    if (mean_distance(set) <= most_distance_) {
+    std::vector<Eigen::Index> left, right;
+    const bool together = set.size() < 2 || (best_cut(set, left, right) > constants_.most_cut &&
+                                             mean_distance(set) <= constants_.most_distance);
+    if (together) {
       parts_.push_back(set);
       return;
     }
-    std::vector<Eigen::Index> left, right;
-    cut_in_two(set, left, right);
     part(left);
     part(right);
   }
 
   double mean_distance(const std::vector<Eigen::Index>& set) const {
-    if (set.size() < 2) return 0;
     const auto count = static_cast<double>(set.size());
     return distances_(set, set).sum() / (count * (count - 1));
   }
 
   /// The cheapest cut along the second eigenvector of the normalised Laplacian.
-  void cut_in_two(const std::vector<Eigen::Index>& set, std::vector<Eigen::Index>& left,
+  double best_cut(const std::vector<Eigen::Index>& set, std::vector<Eigen::Index>& left,
                   std::vector<Eigen::Index>& right) const {
     const MatrixXd w = weights_(set, set);
     const VectorXd degree = w.rowwise().sum();
@@ -97,11 +97,12 @@ class NormalisedCut {
     for (std::size_t k = 0; k < order.size(); ++k) {
       (k < best_count ? left : right).push_back(set[order[k]]);
     }
+    return best;
   }
 
   const MatrixXd& distances_;
   MatrixXd weights_;
-  double most_distance_;
+  const GroupConstants& constants_;
   std::vector<std::vector<Eigen::Index>> parts_;
 };
 
@@ -157,7 +158,7 @@ std::vector<int> group_segments(std::span<const SegmentShape> segments,
           segment_distance(segments[sample[i]], segments[sample[k]], constants);
     }
   }
-  const auto parts = NormalisedCut(distances, constants.most_distance).run();
+  const auto parts = NormalisedCut(distances, constants).run();
   std::vector<int> groups(segments.size(), -1);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (const Eigen::Index i : parts[p]) {
