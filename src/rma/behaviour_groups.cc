@@ -46,8 +46,10 @@ class NormalisedCut {
  private:
   void part(const std::vector<Eigen::Index>& set) {
     std::vector<Eigen::Index> left, right;
-    const bool together = set.size() < 2 || (best_cut(set, left, right) > constants_.most_cut &&
-                                             mean_distance(set) <= constants_.most_distance);
+    const double apart = mean_distance(set);
+    const bool together =
+        apart <= constants_.least_distance ||
+        (best_cut(set, left, right) > constants_.most_cut && apart <= constants_.most_distance);
     if (together) {
       parts_.push_back(set);
       return;
@@ -57,6 +59,7 @@ class NormalisedCut {
   }
 
   double mean_distance(const std::vector<Eigen::Index>& set) const {
+    if (set.size() < 2) return 0;
     const auto count = static_cast<double>(set.size());
     return distances_(set, set).sum() / (count * (count - 1));
   }

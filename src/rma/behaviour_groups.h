@@ -17,11 +17,13 @@ struct GroupConstants {
   /// The paper only says that it decreases.
   double axis_weight = 0.5;
   /// The dissimilarity threshold: a group is parted while its segments are further apart than this
-  /// on average, and a segment joins a known group that is no further. Nearer ones are parted where
-  /// the normalised cut costs less than `most_cut` (of 2): two clusters with hardly anything in
-  /// between. The paper leaves both open. Measured (docs/findings/2026-11-25-behaviours.md).
+  /// on average, and a segment joins a known group that is no further. Down to half of it they are
+  /// parted where the normalised cut costs less than `most_cut` (of 2): two clusters with hardly
+  /// anything in between. The paper leaves it open. Measured
+  /// (docs/findings/2026-11-25-behaviours.md).
   double most_distance = 0.8;
-  double most_cut = 0.5;
+  double least_distance = 0.4;
+  double most_cut = 0.7;
   /// Segments beyond this many join the group of the sampled ones they are most like, so that the
   /// matrix stays small.
   std::size_t most_sampled = 600;
