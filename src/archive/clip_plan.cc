@@ -33,11 +33,12 @@ long frame_at(long sample, long samples, const TakeOutline& take, double rate) {
 class SkeletonPlanner {
  public:
   SkeletonPlanner(std::vector<StoredMotion> stored, std::vector<const FreshTake*> fresh,
-                  const ClipPlanConstants& constants)
+                  const ClipPlanConstants& constants, unsigned jobs)
       : stored_(std::move(stored)),
         fresh_(std::move(fresh)),
         constants_(constants),
-        repeats_(repeat_constants(constants)) {}
+        repeats_(repeat_constants(constants)),
+        jobs_(jobs) {}
 
   /// `postures` of the new takes, in their order. Groups are counted from `next_group` on.
   void plan(std::vector<PostureMatrix> postures, std::int64_t& next_group, ClipPlan& plan) {
@@ -79,7 +80,7 @@ class SkeletonPlanner {
     NearWindowConstants windows;
     windows.neighbours = constants_.neighbours;
     windows.hop_s = constants_.hop_s;
-    const auto pairs = find_near_pairs(library_, repeats_, std::nullopt, windows);
+    const auto pairs = find_near_pairs(library_, repeats_, std::nullopt, jobs_, windows);
     const std::vector<ChosenClip> standing = standing_clips();
     const long least = std::lround(constants_.least_clip_s * constants_.rate);
     std::vector<Occurrence> references;
@@ -87,8 +88,8 @@ class SkeletonPlanner {
       if (clip.role != ClipRole::repeated && clip.end - clip.begin >= least)
         references.push_back({clip.take, clip.begin, clip.end, 0});
     }
-    std::vector<RepeatGroup> groups = find_groups_of(library_, pairs, references, repeats_);
-    std::ranges::move(find_groups_from(library_, pairs, stored_.size(), repeats_),
+    std::vector<RepeatGroup> groups = find_groups_of(library_, pairs, references, repeats_, jobs_);
+    std::ranges::move(find_groups_from(library_, pairs, stored_.size(), repeats_, jobs_),
                       std::back_inserter(groups));
     ClipChoiceConstants choice;
     choice.least_s = constants_.least_rest_s;
@@ -158,6 +159,7 @@ class SkeletonPlanner {
   std::vector<const FreshTake*> fresh_;
   const ClipPlanConstants& constants_;
   RepeatConstants repeats_;
+  unsigned jobs_;
   PostureLibrary library_;
   std::vector<ChosenClip> clips_;
   std::vector<std::vector<long>> cuts_;  ///< behaviour cuts of new takes
@@ -196,7 +198,7 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
         });
     SkeletonPlanner planner(
         stored.motions(skeleton, root, constants.rate, constants.most_stored_takes), fresh,
-        constants);
+        constants, options.jobs);
     planner.plan(std::move(postures), next_group, plan);
   }
   return plan;
