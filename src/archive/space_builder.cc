@@ -196,6 +196,7 @@ KnotScales SpaceBuilder::measure_scales(const CoefficientSpace& space, const Mem
 std::vector<std::uint8_t> SpaceBuilder::cheaper_prior(const KnotScales& scales,
                                                       double takes_each) const {
   KnotModel learned(scales);
+  learned.learn_in_common();
   for (const auto& [i, fitted] : fits_) learned.learn(fitted.shape, fitted.motion.knots);
   const auto bits = [&](const std::vector<std::uint8_t>& prior) {
     KnotModel start;

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 
 namespace reprise {
 namespace {
+
+/// Far beyond what motion brings: a damaged stream may push a weight for ever.
+constexpr std::int32_t weight_limit = 64 * weight_one;
 
 /// Costs of a bit of probability p in 1/65536 bit, by p / 16: log2 by repeated squaring.
 constexpr auto make_cost_table() {
@@ -31,10 +35,17 @@ constexpr auto cost_table = make_cost_table();
 
 }  // namespace
 
-BitMixer::BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets)
-    : weights_(weight_sets * BitModelConstants::inputs, weight_one * 3 / 10) {
+BitMixer::BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets,
+                   Learning learning)
+    : weights_(weight_sets * BitModelConstants::inputs, learning.start_weight),
+      learning_(learning) {
   assert(table_sizes.size() == BitModelConstants::inputs);
   for (std::size_t t = 0; t < tables_.size(); ++t) tables_[t].resize(table_sizes[t]);
+}
+
+void BitMixer::start(std::size_t table, std::size_t counter, int logit, int count) {
+  tables_[table][counter] = {static_cast<std::uint16_t>(squash(logit)),
+                             static_cast<std::uint16_t>(count)};
 }
 
 Probability BitMixer::predict(const Contexts& contexts) {
@@ -53,11 +64,12 @@ Probability BitMixer::predict(const Contexts& contexts) {
 void BitMixer::update(const Contexts& contexts, bool bit) {
   std::int32_t* weight = &weights_[contexts.weights * BitModelConstants::inputs];
   const std::int32_t error =
-      ((bit ? 65535 : 0) - static_cast<std::int32_t>(predicted_)) * BitModelConstants::mixer_rate;
+      ((bit ? 65535 : 0) - static_cast<std::int32_t>(predicted_)) * learning_.mixer_rate;
   for (int i = 0; i < BitModelConstants::inputs; ++i) {
-    weight[i] += static_cast<std::int32_t>(
+    const auto move = static_cast<std::int32_t>(
         (static_cast<std::int64_t>(stretched_[i]) * error + (1 << 19)) >> 20);
-    tables_[i][contexts.counter[i]].update(bit);
+    weight[i] = std::clamp(weight[i] + move, -weight_limit, weight_limit);
+    tables_[i][contexts.counter[i]].update(bit, learning_.count_limit);
   }
 }
 
@@ -85,16 +97,15 @@ std::uint32_t BitMixer::cost(const Contexts& contexts, bool bit) {
 
 namespace {
 
-/// Parts of a prior: probabilities as logits in steps of 1/4 nat, counts as their logarithm.
+/// Parts of a prior: probabilities as logits in steps of 1/4 nat from the fresh one, counts as
+/// their logarithm.
 constexpr int prior_logit_step = logit_one / 4;
-constexpr int prior_logit_limit = logit_limit / prior_logit_step;
+constexpr int prior_logit_limit = 63;
 constexpr int prior_logit_bits = 7;
 constexpr int prior_count_bits = 3;
-constexpr int prior_weight_step = weight_one / 32;
-constexpr int prior_weight_limit = 127;
-constexpr int prior_weight_bits = 8;
-/// A context seen less often than this is not worth its bytes.
-constexpr int least_prior_count = 4;
+/// A context seen less often than this, or moved less from where it starts, is not worth its bytes.
+constexpr int least_prior_count = 6;
+constexpr int least_prior_move = 2;
 
 /// Bits of a small number, each in the context of those before it.
 struct SymbolModel {
@@ -124,52 +135,56 @@ Probability probability_of(const BitCounter& counter) {
   return std::clamp<Probability>(counter.probability, least_probability, 65536 - least_probability);
 }
 
-/// Codes all counters and weights with `code_bit(counter, bit)`, which returns the bit, written or
-/// read.
+int quarter_nats(const BitCounter& counter) {
+  const int logit = stretch(counter.probability);
+  return (logit + logit_limit + prior_logit_step / 2) / prior_logit_step -
+         logit_limit / prior_logit_step;
+}
+
+/// Codes counters, by what they differ from those of `fresh`, with `code_bit(counter, bit)`, which
+/// returns the bit, written or read. Weights stay where they start: those that takes of one library
+/// end with made others larger.
 template <class Tables, class CodeBit>
-void code_prior(Tables& tables, std::vector<std::int32_t>& weights, CodeBit&& code_bit) {
-  SymbolModel logits(prior_logit_bits), counts(prior_count_bits), weight_model(prior_weight_bits);
+void code_prior(const Tables& fresh, Tables& tables, CodeBit&& code_bit) {
+  SymbolModel logits(prior_logit_bits), counts(prior_count_bits);
   std::array<BitCounter, 4> seen;
   for (std::size_t t = 0; t + 1 < tables.size(); ++t) {
     unsigned history = 0;
-    for (BitCounter& counter : tables[t]) {
-      const bool used = code_bit(seen[history & 3], counter.count >= least_prior_count);
+    for (std::size_t i = 0; i < tables[t].size(); ++i) {
+      BitCounter& counter = tables[t][i];
+      const int expected = quarter_nats(fresh[t][i]);
+      const int moved =
+          std::clamp(quarter_nats(counter) - expected, -prior_logit_limit, prior_logit_limit);
+      const bool pays = counter.count >= least_prior_count && std::abs(moved) >= least_prior_move;
+      const bool used = code_bit(seen[history & 3], pays);
       seen[history & 3].update(used);
       history = history << 1 | used;
       if (!used) continue;
-      const int logit = stretch(counter.probability);
-      const int rounded = (logit + logit_limit + prior_logit_step / 2) / prior_logit_step;
-      const auto stored = logits.code(static_cast<std::uint32_t>(rounded), code_bit);
+      const auto stored =
+          logits.code(static_cast<std::uint32_t>(moved + prior_logit_limit), code_bit);
       const auto sure = counts.code(
           static_cast<std::uint32_t>(log2_floor(std::max<int>(counter.count, 1))), code_bit);
       counter.probability = static_cast<std::uint16_t>(
-          squash((static_cast<int>(stored) - prior_logit_limit) * prior_logit_step));
+          squash((expected + static_cast<int>(stored) - prior_logit_limit) * prior_logit_step));
       counter.count =
           static_cast<std::uint16_t>(std::min(1 << sure, BitModelConstants::trained_count));
     }
-  }
-  for (std::int32_t& weight : weights) {
-    const int rounded = std::clamp((weight + prior_weight_step / 2) / prior_weight_step,
-                                   -prior_weight_limit, prior_weight_limit);
-    const auto stored =
-        weight_model.code(static_cast<std::uint32_t>(rounded + prior_weight_limit), code_bit);
-    weight = (static_cast<int>(stored) - prior_weight_limit) * prior_weight_step;
   }
 }
 
 }  // namespace
 
-void BitMixer::save(RangeEncoder& encoder) const {
+void BitMixer::save(RangeEncoder& encoder, const BitMixer& fresh) const {
   auto tables = tables_;
-  auto weights = weights_;
-  code_prior(tables, weights, [&](const BitCounter& counter, bool bit) {
+  code_prior(fresh.tables_, tables, [&](const BitCounter& counter, bool bit) {
     encoder.encode(bit, probability_of(counter));
     return bit;
   });
 }
 
 void BitMixer::load(RangeDecoder& decoder) {
-  code_prior(tables_, weights_, [&](const BitCounter& counter, bool) {
+  const auto fresh = tables_;
+  code_prior(fresh, tables_, [&](const BitCounter& counter, bool) {
     return decoder.decode(probability_of(counter));
   });
 }

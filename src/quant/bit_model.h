@@ -12,11 +12,25 @@
 
 namespace reprise {
 
+/// How fast counters and mixers learn, and where weights start; docs/findings/ has what was tried.
+struct Learning {
+  int count_limit = BitModelConstants::count_limit;  ///< at most that
+  int mixer_rate = BitModelConstants::mixer_rate;
+  std::int32_t start_weight = weight_one * 3 / 10;  ///< of each input
+};
+
 /// A set of contexts and mixing weights. A decision names one counter of each of `inputs` tables,
 /// and a set of weights.
 class BitMixer {
  public:
-  BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets);
+  BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets,
+           Learning learning = {});
+
+  /// Learns on in another way.
+  void learn_as(const Learning& learning) { learning_ = learning; }
+
+  /// Starts a counter at `logit` (1/256 nat), as if it had seen `count` bits.
+  void start(std::size_t table, std::size_t counter, int logit, int count);
 
   struct Contexts {
     std::array<std::uint32_t, BitModelConstants::inputs> counter;
@@ -30,9 +44,10 @@ class BitMixer {
   /// The cost alone.
   std::uint32_t cost(const Contexts& contexts, bool bit);
 
-  /// Writes what was learned, but for the last table, whose contexts are too many to be worth it.
-  void save(RangeEncoder& encoder) const;
-  /// Starts from what was saved of a mixer of the same sizes.
+  /// Writes how what was learned differs from `fresh`, but for the last table, whose contexts are
+  /// too many to be worth it.
+  void save(RangeEncoder& encoder, const BitMixer& fresh) const;
+  /// Starts from what was saved of a mixer, itself as `fresh` was.
   void load(RangeDecoder& decoder);
 
  private:
@@ -41,6 +56,7 @@ class BitMixer {
 
   std::array<std::vector<BitCounter>, BitModelConstants::inputs> tables_;
   std::vector<std::int32_t> weights_;
+  Learning learning_;
   std::array<std::int32_t, BitModelConstants::inputs> stretched_{};
   Probability predicted_ = 1u << 15;
 };

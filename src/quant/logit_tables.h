@@ -80,12 +80,12 @@ struct BitCounter {
   std::uint16_t probability = 1u << 15;
   std::uint16_t count = 0;
 
-  void update(bool bit) {
+  void update(bool bit, int count_limit = BitModelConstants::count_limit) {
     const std::int32_t target = bit ? 65535 : 0;
     const std::int64_t step =
         static_cast<std::int64_t>(target - probability) * logit_tables::rates[count];
     probability = static_cast<std::uint16_t>(probability + (step >> 16));
-    if (count < BitModelConstants::count_limit) ++count;
+    if (count < count_limit) ++count;
   }
 };
 

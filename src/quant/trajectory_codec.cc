@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "quant/knot_contexts.h"
 #include "quant/numbers.h"
 
 namespace reprise {
@@ -14,34 +15,15 @@ namespace {
 
 using Eigen::Index;
 
-/// What is decided about a knot, one bit at a time.
-enum Decision : std::uint32_t {
-  is_not_zero = 0,
-  is_more_than = 1,  ///< 1 .. unary_limit
-  sign_is_negative = 7,
-  decision_count = 8,
-};
 /// Magnitudes up to this are coded one by one, larger ones by their number of bits.
 constexpr int unary_limit = 6;
 constexpr int exponent_bits = 5;
 /// Contexts tell no difference between larger magnitudes than this.
 constexpr int context_limit = 1 << 20;
-
-constexpr std::uint32_t slots = KnotSlots::count;
-constexpr std::uint32_t column_slots = 72;
 constexpr std::uint32_t root_slots = 8;
-constexpr std::uint32_t magnitude_bins = 8;
-constexpr std::uint32_t fine_bins = 24;
 constexpr std::uint32_t end_slots = 7;  ///< bits of the number of the last trajectory in use
-
-constexpr std::uint32_t scale_bins = 24;
 /// The bin of a scale that is as large as the step.
 constexpr int scale_bias = 8;
-
-constexpr std::uint32_t knot_contexts[BitModelConstants::inputs] = {
-    scale_bins * slots, slots* magnitude_bins* magnitude_bins,
-    magnitude_bins* magnitude_bins* magnitude_bins, scale_bins / 2 * fine_bins,
-    slots* column_slots};
 
 /// Small numbers apart, large ones by their logarithm.
 std::uint32_t bin(int magnitude) {
@@ -54,7 +36,8 @@ std::uint32_t fine_bin(int magnitude) {
   int bits = 0;
   while (magnitude >> (bits + 1)) ++bits;  // 12 has 3
   const int half = magnitude >> (bits - 1) & 1;
-  return static_cast<std::uint32_t>(std::min<int>(12 + 2 * (bits - 3) + half, fine_bins - 1));
+  return static_cast<std::uint32_t>(
+      std::min<int>(12 + 2 * (bits - 3) + half, KnotContexts::fine_magnitudes - 1));
 }
 
 int sign_code(int value) { return value < 0 ? 1 : value > 0 ? 2 : 0; }
@@ -94,9 +77,9 @@ class KnotWalk {
       BitMixer::Contexts contexts;
       for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
         contexts.counter[t] =
-            decision_count * knot_contexts[t] + (t == 0 ? slot << end_slots | bits : 0);
+            decision_count * KnotContexts::count[t] + (t == 0 ? slot << end_slots | bits : 0);
       }
-      contexts.weights = decision_count * slots;
+      contexts.weights = decision_count;
       node = node << 1 | io_(contexts, (used >> b & 1) != 0);
     }
     return group.first_column +
@@ -126,17 +109,20 @@ class KnotWalk {
     const std::uint32_t column_slot =
         column < shape_.root ? u(column)
         : column >= shape_.trajectories - shape_.direct
-            ? column_slots - 1
-            : std::min<std::uint32_t>(root_slots + u(column - shape_.root), column_slots - 2);
+            ? KnotContexts::columns - 1
+            : std::min<std::uint32_t>(root_slots + u(column - shape_.root),
+                                      KnotContexts::columns - 2);
     const auto expected =
         u(std::clamp(scales_.at(shape_, group.slot, column) - shape_.step_half_octaves + scale_bias,
-                     0, static_cast<int>(scale_bins) - 1));
-    base_[0] = expected * slots + slot;
-    base_[1] = (slot * magnitude_bins + bin(2 * a + a2)) * magnitude_bins + bin(parents);
-    base_[2] = (bin(neighbours) * magnitude_bins + bin(a)) * magnitude_bins + bin(parents);
-    base_[3] = expected / 2 * fine_bins + fine_bin(2 * a + a2 + parents + neighbours);
-    base_[4] = slot * column_slots + column_slot;
-    slot_ = slot;
+                     0, static_cast<int>(KnotContexts::scales) - 1));
+    base_[0] = expected * KnotContexts::slots + slot;
+    base_[1] = (slot * KnotContexts::magnitudes + bin(2 * a + a2)) * KnotContexts::magnitudes +
+               bin(parents);
+    base_[2] = (bin(neighbours) * KnotContexts::magnitudes + bin(a)) * KnotContexts::magnitudes +
+               bin(parents);
+    base_[3] =
+        expected / 2 * KnotContexts::fine_magnitudes + fine_bin(2 * a + a2 + parents + neighbours);
+    base_[4] = slot * KnotContexts::columns + column_slot;
     const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
     if constexpr (requires { io_.wanted(frame, column); }) {
       knots_(frame, column) = predicted + chosen(io_.wanted(frame, column) - predicted);
@@ -159,9 +145,9 @@ class KnotWalk {
   BitMixer::Contexts contexts_of(std::uint32_t decision) const {
     BitMixer::Contexts contexts;
     for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] = decision * knot_contexts[t] + base_[t];
+      contexts.counter[t] = decision * KnotContexts::count[t] + base_[t];
     }
-    contexts.weights = decision * slots + slot_;
+    contexts.weights = decision;
     return contexts;
   }
 
@@ -213,14 +199,16 @@ class KnotWalk {
     std::uint32_t node = 1;
     BitMixer::Contexts contexts;
     for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] = decision_count * knot_contexts[t] + (slots << end_slots);
+      contexts.counter[t] =
+          decision_count * KnotContexts::count[t] + (KnotContexts::slots << end_slots);
     }
-    contexts.weights = decision_count * slots;
+    contexts.weights = decision_count;
     const auto width = static_cast<std::uint32_t>(std::bit_width(plus_one));
     for (int b = exponent_bits - 1; b >= 0; --b) {
-      contexts.counter[0] = decision_count * knot_contexts[0] + (slots << end_slots) + node;
+      contexts.counter[0] =
+          decision_count * KnotContexts::count[0] + (KnotContexts::slots << end_slots) + node;
       for (std::uint32_t t = 1; t < BitModelConstants::inputs; ++t) {
-        contexts.counter[t] = decision_count * knot_contexts[t];
+        contexts.counter[t] = decision_count * KnotContexts::count[t];
       }
       node = node << 1 | io_(contexts, (width >> b & 1) != 0);
     }
@@ -235,14 +223,27 @@ class KnotWalk {
   const KnotShape& shape_;
   QuantisedKnots& knots_;
   std::array<std::uint32_t, BitModelConstants::inputs> base_{};
-  std::uint32_t slot_ = 0;
 };
 
 std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
   std::array<std::size_t, BitModelConstants::inputs> sizes;
-  for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = decision_count * knot_contexts[t] + 1;
-  sizes[0] += (std::size_t{slots} << end_slots) + (1u << exponent_bits);
+  for (std::size_t t = 0; t < sizes.size(); ++t)
+    sizes[t] = decision_count * KnotContexts::count[t] + 1;
+  sizes[0] += (std::size_t{KnotContexts::slots} << end_slots) + (1u << exponent_bits);
   return sizes;
+}
+
+/// Few decisions are made of a take: weights have to move fast, and one set serves all slots.
+constexpr Learning knot_learning = {30, 60, 65536 / 5};
+constexpr Learning common_learning = {255, 6, 65536 / 5};
+
+const BitMixer& fresh_mixer() {
+  static const BitMixer fresh = [] {
+    BitMixer mixer(table_sizes(), decision_count + 1, knot_learning);
+    start_knot_counters(mixer);
+    return mixer;
+  }();
+  return fresh;
 }
 
 constexpr std::uint32_t most_columns = 1u << 16;
@@ -326,64 +327,9 @@ struct Chooser {
 
 }  // namespace
 
-int KnotScales::column_of(const KnotShape& shape, int column) const {
-  // Columns of a take that does not tumble; the further columns of one that does are taken for its
-  // heading's.
-  constexpr int upright_root = 4;
-  if (column < shape.root) return std::min(column, upright_root - 1);
-  return column - shape.root + std::min(shape.root, upright_root);
-}
+KnotModel::KnotModel(KnotScales scales) : scales_(std::move(scales)), mixer_(fresh_mixer()) {}
 
-void KnotScales::add(const KnotShape& shape, const Eigen::MatrixXd& knots) {
-  if (shape.root > 4) return;
-  if (squares_.empty()) {
-    columns = shape.trajectories;
-    squares_.assign(static_cast<std::size_t>(KnotSlots::count * columns), 0);
-    counts_ = squares_;
-  }
-  for (const KnotGroup& group : knot_order(shape)) {
-    for (const KnotRow& row : group.rows) {
-      for (int c = group.first_column; c < std::min(group.last_column, columns); ++c) {
-        // The coarsest knots of the root are coded by what they differ from the one before.
-        const bool follows = group.coarsest && (c < shape.root || c >= columns - shape.direct);
-        if (follows && row.before < 0) continue;
-        const double value = knots(row.row, c) - (follows ? knots(row.before, c) : 0.0);
-        const auto i = static_cast<std::size_t>(group.slot * columns + c);
-        squares_[i] += value * value;
-        counts_[i] += 1;
-      }
-    }
-  }
-}
-
-void KnotScales::settle() {
-  codes.clear();
-  for (std::size_t i = 0; i < squares_.size(); ++i) {
-    const double mean = counts_[i] > 0 ? squares_[i] / counts_[i] : 0;
-    const double half_octaves = std::log2(std::max(mean, 1e-12));  // 2 log2 of the root
-    codes.push_back(static_cast<std::int8_t>(
-        std::clamp(static_cast<int>(std::lround(half_octaves)), least, most)));
-  }
-  kinds.fill(true);
-}
-
-void KnotScales::keep(const std::array<bool, curve_kinds>& kept) {
-  kinds = kept;
-  for (int kind = 0; kind < curve_kinds; ++kind) {
-    if (kept[kind]) continue;
-    const auto of = static_cast<CurveKind>(kind);
-    std::fill_n(codes.begin() + KnotSlots::first_of(of) * columns,
-                KnotSlots::count_of(of) * columns, static_cast<std::int8_t>(least));
-  }
-}
-
-int KnotScales::at(const KnotShape& shape, int slot, int column) const {
-  const int own = column_of(shape, column);
-  return own < columns ? codes[static_cast<std::size_t>(slot * columns + own)] : least;
-}
-
-KnotModel::KnotModel(KnotScales scales)
-    : scales_(std::move(scales)), mixer_(table_sizes(), decision_count * slots + 1) {}
+void KnotModel::learn_in_common() { mixer_.learn_as(common_learning); }
 
 std::vector<std::uint8_t> KnotModel::prior(bool with_contexts) const {
   RangeEncoder encoder;
@@ -396,7 +342,7 @@ std::vector<std::uint8_t> KnotModel::prior(bool with_contexts) const {
     });
   }
   encoder.encode_plain(with_contexts, 1);
-  if (with_contexts) mixer_.save(encoder);
+  if (with_contexts) mixer_.save(encoder, fresh_mixer());
   return encoder.finish();
 }
 
@@ -406,7 +352,7 @@ bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
   if (columns > most_columns) return false;
   scales_ = {};
   scales_.columns = static_cast<int>(columns);
-  scales_.codes.assign(columns * slots, KnotScales::least);
+  scales_.codes.assign(columns * KnotContexts::slots, KnotScales::least);
   for (int kind = 0; kind < curve_kinds; ++kind) {
     scales_.kinds[kind] = decoder.decode_plain(1) != 0;
     if (!scales_.kinds[kind]) continue;

@@ -62,6 +62,9 @@ class KnotModel {
   };
   Choice choose(const KnotShape& shape, const Eigen::MatrixXd& knots, double lambda);
 
+  /// From here on learns what takes have in common, slowly, instead of one take.
+  void learn_in_common();
+
   /// What was learned, as bytes; a model made with the same scales starts from them. False: not a
   /// prior.
   std::vector<std::uint8_t> prior(bool with_contexts) const;

@@ -77,9 +77,9 @@ class BitMixerTest : public testing::Test {
     contexts.weights = random_() % 2;
     return contexts;
   }
-  /// Mostly what the first two contexts say.
+  /// Mostly what one of the first two contexts says.
   bool likely_bit(const BitMixer::Contexts& contexts) {
-    return random_() % 10 == 0 ? random_() % 2 : (contexts.counter[0] + contexts.counter[1]) % 2;
+    return random_() % 10 == 0 ? random_() % 2 : contexts.counter[random_() % 4 == 0] % 2;
   }
 
   std::mt19937 random_{2};
@@ -120,7 +120,7 @@ TEST_F(BitMixerTest, PriorIsTheSameForWhoSavesAndWhoLoads) {
     learned.learn(contexts, likely_bit(contexts));
   }
   RangeEncoder saved;
-  learned.save(saved);
+  learned.save(saved, BitMixer(sizes, 2));
   const auto bytes = saved.finish();
   BitMixer first(sizes, 2), second(sizes, 2), fresh(sizes, 2);
   RangeDecoder one(bytes), two(bytes);
@@ -135,7 +135,7 @@ TEST_F(BitMixerTest, PriorIsTheSameForWhoSavesAndWhoLoads) {
     with += cost;
     without += fresh.learn(contexts, bit);
   }
-  EXPECT_LT(with, without);
+  EXPECT_LT(with, 0.98 * without);
 }
 
 }  // namespace
