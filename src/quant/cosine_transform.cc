@@ -1,5 +1,6 @@
 #include "quant/cosine_transform.h"
 
+#include <bit>
 #include <complex>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
@@ -39,6 +40,45 @@ std::vector<double> cosine_circle(Index n) {
   return circle;
 }
 
+using ComplexVector = std::vector<std::complex<double>>;
+
+/// A Fourier transform that is fast at every length, which takes of a prime number of frames need:
+/// L. Bluestein, A linear filtering approach to the computation of discrete Fourier transform,
+/// 1970.
+class FourierTransform {
+ public:
+  explicit FourierTransform(Index length)
+      : chirp_(static_cast<std::size_t>(length)),
+        filter_(std::bit_ceil(2 * static_cast<std::size_t>(length))) {
+    for (Index k = 0; k < length; ++k) {
+      // k^2 modulo the period keeps the angle exact in long takes.
+      const double turned = static_cast<double>(k * k % (2 * length));
+      const auto value = std::polar(1.0, -std::numbers::pi * turned / static_cast<double>(length));
+      chirp_[static_cast<std::size_t>(k)] = value;
+      filter_[static_cast<std::size_t>(k)] = std::conj(value);
+      if (k > 0) filter_[filter_.size() - static_cast<std::size_t>(k)] = std::conj(value);
+    }
+    ComplexVector spectrum;
+    fourier_.fwd(spectrum, filter_);
+    filter_ = std::move(spectrum);
+  }
+
+  ComplexVector transformed(const ComplexVector& values) {
+    ComplexVector padded(filter_.size()), spectrum;
+    for (std::size_t i = 0; i < values.size(); ++i) padded[i] = values[i] * chirp_[i];
+    fourier_.fwd(spectrum, padded);
+    for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= filter_[i];
+    fourier_.inv(padded, spectrum);
+    padded.resize(values.size());
+    for (std::size_t i = 0; i < padded.size(); ++i) padded[i] *= chirp_[i];
+    return padded;
+  }
+
+ private:
+  Eigen::FFT<double> fourier_;
+  ComplexVector chirp_, filter_;
+};
+
 }  // namespace
 
 void frames_to_cosines(Eigen::Ref<Eigen::MatrixXd> trajectories) {
@@ -46,14 +86,14 @@ void frames_to_cosines(Eigen::Ref<Eigen::MatrixXd> trajectories) {
   // the even frames followed by the odd ones backwards.
   const Index n = trajectories.rows();
   if (n <= 1) return;
-  Eigen::FFT<double> fourier;
-  std::vector<std::complex<double>> shuffled(static_cast<std::size_t>(n)), spectrum;
+  FourierTransform fourier(n);
+  ComplexVector shuffled(static_cast<std::size_t>(n));
   for (Index c = 0; c < trajectories.cols(); ++c) {
     for (Index i = 0; i < n; ++i) {
       const Index place = i % 2 == 0 ? i / 2 : n - 1 - i / 2;
       shuffled[static_cast<std::size_t>(place)] = trajectories(i, c);
     }
-    fourier.fwd(spectrum, shuffled);
+    const ComplexVector spectrum = fourier.transformed(shuffled);
     for (Index k = 0; k < n; ++k) {
       const double angle =
           -std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(n));
