@@ -24,6 +24,17 @@ bool may_be_clip_id(const std::string& id) {
          id.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
 }
 
+/// A take that was found before; another process may have taken it out since.
+TakeRecord record_of(const OpenArchive& archive, const TakeInfo& take) {
+  std::optional<TakeRecord> record = archive.store.find_take(take.name);
+  if (!record || record->info.source_digest != take.source_digest ||
+      record->info.frames != take.frames) {
+    throw Error(ErrorCode::not_found,
+                "the take '" + take.name + "' is not in the archive any more");
+  }
+  return std::move(*record);
+}
+
 std::string candidate_list(const std::vector<std::string>& names) {
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), most_candidates); ++i) {
@@ -45,10 +56,12 @@ Archive::Archive(Archive&&) noexcept = default;
 Archive& Archive::operator=(Archive&&) noexcept = default;
 
 std::vector<TakeInfo> Archive::takes(const TakeFilter& filter) const {
+  const auto snapshot = impl_->snapshot();
   return impl_->store.takes(filter);
 }
 
 std::vector<ClipInfo> Archive::clips(const TakeFilter& filter) const {
+  const auto snapshot = impl_->snapshot();
   std::vector<ClipInfo> result;
   for (const TakeInfo& take : takes(filter)) {
     const std::int64_t ids[] = {take.id};
@@ -59,11 +72,18 @@ std::vector<ClipInfo> Archive::clips(const TakeFilter& filter) const {
   return result;
 }
 
-std::vector<SkeletonInfo> Archive::skeletons() const { return impl_->store.skeletons(); }
+std::vector<SkeletonInfo> Archive::skeletons() const {
+  const auto snapshot = impl_->snapshot();
+  return impl_->store.skeletons();
+}
 
-std::vector<std::string> Archive::subjects() const { return impl_->store.subjects(); }
+std::vector<std::string> Archive::subjects() const {
+  const auto snapshot = impl_->snapshot();
+  return impl_->store.subjects();
+}
 
 ArchiveStats Archive::stats() const {
+  const auto snapshot = impl_->snapshot();
   DistanceSketches sketches;
   ArchiveStats stats = impl_->store.stats(
       [&](const Bytes& sketch, std::uint64_t distances) { sketches.add(sketch, distances); });
@@ -72,6 +92,7 @@ ArchiveStats Archive::stats() const {
 }
 
 ArchiveInfo Archive::info() const {
+  const auto snapshot = impl_->snapshot();
   ArchiveInfo info;
   info.content_digest = hexadecimal(impl_->store.content_digest());
   info.format_version = impl_->store.format_version();
@@ -81,6 +102,7 @@ ArchiveInfo Archive::info() const {
 }
 
 TakeInfo Archive::find_take(const std::string& id) const {
+  const auto snapshot = impl_->snapshot();
   if (const auto exact = impl_->store.find_take(id)) return exact->info;
   const std::vector<std::string> names = impl_->store.take_names_ending_in(id, most_candidates + 1);
   if (names.size() > 1) throw_ambiguous(id, names);
@@ -92,6 +114,7 @@ std::vector<ClipInfo> Archive::find_clips(const std::string& id) const {
   std::vector<ClipInfo> clips;
   if (!may_be_clip_id(id)) return clips;
   std::string lower = id;
+  const auto snapshot = impl_->snapshot();
   for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'F' ? c + 32 : c);
   for (const ClipRecord& record : impl_->store.clips_with_prefix(lower)) {
     clips.push_back(clip_info(record, impl_->store.take(record.take).info));
@@ -107,6 +130,7 @@ std::vector<ClipInfo> Archive::find_clips(const std::string& id) const {
 }
 
 Archive::Selection Archive::find(const std::string& id) const {
+  const auto snapshot = impl_->snapshot();
   try {
     TakeInfo take = find_take(id);
     const long frames = take.frames;
@@ -121,16 +145,19 @@ Archive::Selection Archive::find(const std::string& id) const {
 }
 
 Take Archive::extract(const TakeInfo& info, std::optional<FidelityTier> tier) const {
-  const TakeRecord record = impl_->store.take(info.id);
+  const auto snapshot = impl_->snapshot();
+  const TakeRecord record = record_of(*impl_, info);
   return decode_layer(*impl_, record, layer_for(record, tier));
 }
 
 std::string Archive::source_text(const TakeInfo& info) const {
-  return decode_source_text(*impl_, impl_->store.take(info.id));
+  const auto snapshot = impl_->snapshot();
+  return decode_source_text(*impl_, record_of(*impl_, info));
 }
 
 std::shared_ptr<const Skeleton> Archive::skeleton(const TakeInfo& info) const {
-  const TakeRecord record = impl_->store.take(info.id);
+  const auto snapshot = impl_->snapshot();
+  const TakeRecord record = record_of(*impl_, info);
   return empty_take(impl_->proportions(record.proportions), info.format).skeleton;
 }
 

@@ -13,6 +13,19 @@ struct OpenArchive {
   explicit OpenArchive(const std::filesystem::path& path)
       : store(ArchiveStore::open_for_reading(path)) {}
 
+  /// One state of the archive for as long as it lives. What is at hand from another state is
+  /// forgotten: a number may be given again after a removal.
+  ArchiveStore::Snapshot snapshot() {
+    ArchiveStore::Snapshot snapshot = store.snapshot();
+    const std::int64_t now = store.state_number();
+    if (now != state) {
+      spaces.clear();
+      proportions_read.clear();
+    }
+    state = now;
+    return snapshot;
+  }
+
   const CodedSpace& space(std::int64_t id) {
     const auto known = spaces.find(id);
     return known != spaces.end() ? known->second
@@ -26,6 +39,7 @@ struct OpenArchive {
   }
 
   ArchiveStore store;
+  std::int64_t state = 0;
   std::map<std::int64_t, CodedSpace> spaces;
   std::map<std::int64_t, ProportionsRecord> proportions_read;
 };

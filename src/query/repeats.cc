@@ -147,6 +147,7 @@ class RepeatsReader {
 
 std::vector<RecurringMotion> Archive::repeats(const RepeatQuery& query,
                                               const ProgressSink& progress) const {
+  std::optional<ArchiveStore::Snapshot> snapshot = impl_->snapshot();
   std::map<std::int64_t, std::vector<TakeInfo>> by_skeleton;
   std::size_t done = 0, total = 0;
   for (TakeInfo& take : takes()) {
@@ -160,14 +161,17 @@ std::vector<RecurringMotion> Archive::repeats(const RepeatQuery& query,
     }
   };
   RepeatsReader reader(*this, query);
+  std::vector<SkeletonPostures> postures;
   for (auto& [skeleton, takes_of_skeleton] : by_skeleton) {
     const std::vector<std::int64_t> spaces = impl_->store.spaces_of_skeleton(skeleton);
     if (spaces.empty()) continue;
     const LayoutChoices& choices = impl_->space(spaces.front()).space.layout.choices;
-    reader.add_groups_of(read_postures(*impl_, std::move(takes_of_skeleton),
-                                       {choices.root_joint, choices.up_axis}, reader.constants(),
-                                       tick));
+    postures.push_back(read_postures(*impl_, std::move(takes_of_skeleton),
+                                     {choices.root_joint, choices.up_axis}, reader.constants(),
+                                     tick));
   }
+  snapshot.reset();  // a writer need not wait for the comparing
+  for (const SkeletonPostures& of_skeleton : postures) reader.add_groups_of(of_skeleton);
   return reader.finish();
 }
 

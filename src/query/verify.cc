@@ -48,8 +48,8 @@ std::string broken_promise(const LayerRecord& layer, const PositionErrors& error
 /// Decodes every layer of a take, and holds each against the source where there is one.
 class TakeCheck {
  public:
-  TakeCheck(OpenArchive& archive, const TakeInfo& info)
-      : archive_(archive), record_(archive.store.take(info.id)) {}
+  TakeCheck(OpenArchive& archive, TakeRecord record)
+      : archive_(archive), record_(std::move(record)) {}
 
   std::vector<Damage> run(const fs::path* source, const ReadOptions& read) {
     std::optional<Take> original;
@@ -113,10 +113,12 @@ class TakeCheck {
 VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadOptions& read,
                              const ProgressSink& progress) const {
   VerifyReport report;
-  report.damaged = impl_->store.check_structure();
   std::map<std::string, fs::path> sources;
   if (against) sources = sources_under(*against);
   std::vector<TakeInfo> all;
+  std::optional<ArchiveStore::Snapshot> snapshot = impl_->snapshot();
+  const std::int64_t state = impl_->store.state_number();
+  report.damaged = impl_->store.check_structure();
   try {
     all = takes();
     report.clips = clips().size();
@@ -125,6 +127,7 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
     if (error.code() != ErrorCode::damaged) throw;
     if (report.damaged.empty()) report.damaged.push_back({"takes", error.reason()});
   }
+  snapshot.reset();
   report.takes = all.size();
   std::vector<float> distances;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -132,8 +135,14 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       throw Error(ErrorCode::interrupted, "stopped");
     }
     try {
+      // A writer waits for one take at most. What it takes out meanwhile is no damage.
+      const ArchiveStore::Snapshot snapshot_of_take = impl_->snapshot();
+      const bool changed = impl_->store.state_number() != state;
+      std::optional<TakeRecord> record =
+          changed ? impl_->store.find_take(all[i].name) : impl_->store.take(all[i].id);
+      if (!record) continue;
       const fs::path* source = against ? source_of(sources, all[i].name) : nullptr;
-      TakeCheck check(*impl_, all[i]);
+      TakeCheck check(*impl_, std::move(*record));
       for (Damage& damage : check.run(source, read)) report.damaged.push_back(std::move(damage));
       if (against && source == nullptr) {
         report.damaged.push_back({all[i].name, "its source is not in the folder", true});

@@ -53,13 +53,14 @@ std::int64_t header_number(const std::array<char, 100>& header, std::size_t at) 
 }
 
 /// What the file is, read from its header alone: another format may have another kind of pages.
-void check_header(const fs::path& path) {
+/// Through SQLite's own descriptor: closing another one would drop the locks of this process.
+void check_header(const Database& database) {
+  const fs::path& path = database.path();
   constexpr std::string_view magic("SQLite format 3\0", 16);
   constexpr std::size_t version_at = 60, application_at = 68;
   std::array<char, 100> header{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::failed, "the archive cannot be opened", {path.string()});
-  file.read(header.data(), header.size());
+  const int read = database.read_file(std::as_writable_bytes(std::span(header)), 0);
+  if (read != SQLITE_OK && read != SQLITE_IOERR_SHORT_READ) database.fail(read);
   if (!std::string_view(header.data(), header.size()).starts_with(magic) ||
       header_number(header, application_at) != application_id) {
     throw_damaged(path, "this is not a Reprise archive");
@@ -76,7 +77,7 @@ void check_header(const fs::path& path) {
 /// Identity, size and tables of an archive that was opened.
 void check_identity(Database& database) {
   const fs::path& path = database.path();
-  check_header(path);
+  check_header(database);
   database.run("BEGIN");
   Statement(database, "SELECT count(*) FROM sqlite_schema").step();
   const auto size = static_cast<std::int64_t>(fs::file_size(path));
@@ -170,7 +171,6 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
       if (cannot.code() == ErrorCode::damaged) throw;
     }
   }
-  check_header(path);
   auto impl = std::make_unique<Impl>();
   impl->database.emplace(path, Database::Mode::read);
   check_identity(*impl->database);
@@ -222,6 +222,32 @@ void ArchiveStore::roll_back() {
 }
 
 void ArchiveStore::compact() { impl_->database->run("VACUUM"); }
+
+ArchiveStore::Snapshot ArchiveStore::snapshot() const {
+  if (impl_->in_transaction) return nullptr;
+  if (impl_->snapshots == 0) {
+    impl_->database->run("BEGIN");
+    // The state is that of the first read.
+    Statement first(*impl_->database, "SELECT count(*) FROM sqlite_schema");
+    try {
+      first.step();
+    } catch (...) {
+      sqlite3_exec(impl_->database->handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+      throw;
+    }
+  }
+  ++impl_->snapshots;
+  return Snapshot(impl_.get());
+}
+
+void ArchiveStore::EndSnapshot::operator()(Impl* impl) const {
+  // Nothing was written, and an error of a read may have ended it already.
+  if (--impl->snapshots == 0) {
+    sqlite3_exec(impl->database->handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+}
+
+std::int64_t ArchiveStore::state_number() const { return pragma(*impl_->database, "data_version"); }
 
 int ArchiveStore::format_version() const {
   return static_cast<int>(pragma(*impl_->database, "user_version"));

@@ -105,6 +105,8 @@ struct StoredClip;
 
 class ArchiveStore {
  public:
+  struct Impl;
+
   /// Throws Error: failed (cannot be opened), damaged, newer_version. Never writes, but for rolling
   /// back a transaction that a dead writer left.
   static ArchiveStore open_for_reading(const std::filesystem::path& path);
@@ -132,6 +134,17 @@ class ArchiveStore {
   /// become unique, and so do primaries that nothing repeats any more.
   void remove_take(std::int64_t id);
   void compact();  ///< outside a transaction
+
+  struct EndSnapshot {
+    void operator()(Impl* impl) const;
+  };
+  /// While one lives, every answer is of one state of the archive. A writer's commit waits for it
+  /// to end, so none should live for long.
+  using Snapshot = std::unique_ptr<Impl, EndSnapshot>;
+  /// Within another, or within a transaction, it is a part of that. Throws Error (locked, damaged).
+  [[nodiscard]] Snapshot snapshot() const;
+  /// Changes when another process has committed.
+  std::int64_t state_number() const;
 
   // Reading. Every row that is returned has passed its digest; one that has not throws Error
   // (damaged).
@@ -172,8 +185,6 @@ class ArchiveStore {
   /// Reads every page and every row; returns what is wrong, in words. Blobs are checked against
   /// their digests but not decoded.
   std::vector<Damage> check_structure() const;
-
-  struct Impl;
 
  private:
   /// Takes whose name is `tail` or, unless `whole`, ends in it after a slash.

@@ -1,26 +1,29 @@
 // Reads every page and every row.
 #include <algorithm>
-#include <fstream>
 
-#include "store/page_checksum_vfs.h"
 #include "store/schema.h"
 #include "store/store_impl.h"
 
 namespace reprise {
 namespace {
 
-/// Pages that nothing uses are looked at too: SQLite would not read them.
-void check_pages(const std::filesystem::path& path, std::size_t size,
-                 std::vector<Damage>& damaged) {
-  std::ifstream file(path, std::ios::binary);
-  Bytes page(size);
-  for (std::uint64_t number = 1;
-       file.read(reinterpret_cast<char*>(page.data()), static_cast<std::streamsize>(size));
-       ++number) {
+std::int64_t number(const Database& database, const std::string& sql) {
+  Statement row(database, sql);
+  return row.step() ? row.integer() : 0;
+}
+
+/// Pages that nothing uses are looked at too: SQLite would not read them. They are read through
+/// SQLite's own descriptor, since closing another one would drop the lock of the snapshot.
+void check_pages(const Database& database, std::vector<Damage>& damaged) {
+  const std::int64_t pages = number(database, "PRAGMA page_count");
+  Bytes page(static_cast<std::size_t>(number(database, "PRAGMA page_size")));
+  for (std::int64_t p = 0; p < pages; ++p) {
+    const int result = database.read_file(std::as_writable_bytes(std::span(page)),
+                                          p * static_cast<std::int64_t>(page.size()));
     const bool never_used = std::ranges::all_of(page, [](std::uint8_t byte) { return byte == 0; });
-    if (!never_used && !page_is_whole(page, number)) {
-      damaged.push_back({"page " + std::to_string(number), "its checksum is wrong"});
-    }
+    if (result == SQLITE_OK || (result == SQLITE_IOERR_DATA && never_used)) continue;
+    if (result != SQLITE_IOERR_DATA) database.fail(result);
+    damaged.push_back({"page " + std::to_string(p + 1), "its checksum is wrong"});
   }
 }
 
@@ -34,19 +37,13 @@ void note_damage(const std::string& id, std::vector<Damage>& damaged, Check&& ch
   }
 }
 
-std::int64_t number(const Database& database, const std::string& sql) {
-  Statement row(database, sql);
-  return row.step() ? row.integer() : 0;
-}
-
 }  // namespace
 
 std::vector<Damage> ArchiveStore::check_structure() const {
+  const Snapshot snapshot = this->snapshot();
   const Database& database = *impl_->database;
   std::vector<Damage> damaged;
-  Statement size(database, "PRAGMA page_size");
-  size.step();
-  check_pages(database.path(), static_cast<std::size_t>(size.integer()), damaged);
+  check_pages(database, damaged);
   note_damage("tables", damaged, [&] {
     Statement row(database, "PRAGMA integrity_check(20)");
     while (row.step()) {

@@ -6,7 +6,7 @@ namespace reprise {
 namespace {
 
 /// How long a reader waits for a writer's commit, and a commit for readers (ms).
-constexpr int busy_timeout_ms = 10000;
+constexpr int busy_timeout_ms = 60000;
 /// No row of ours is larger (bytes): what a hostile file may make SQLite allocate.
 constexpr int most_row_bytes = 1 << 30;
 
@@ -71,6 +71,12 @@ Database::Database(const std::filesystem::path& path, Mode mode) : path_(path) {
 void Database::run(const std::string& sql) {
   const int result = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
   if (result != SQLITE_OK) fail(result);
+}
+
+int Database::read_file(std::span<std::byte> to, std::int64_t offset) const {
+  sqlite3_file* file = nullptr;
+  sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_FILE_POINTER, &file);
+  return file->pMethods->xRead(file, to.data(), static_cast<int>(to.size()), offset);
 }
 
 void Database::fail(int code) const {

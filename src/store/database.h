@@ -28,6 +28,10 @@ class Database {
   sqlite3* handle() const { return handle_.get(); }
   const std::filesystem::path& path() const { return path_; }
 
+  /// Reads the file as it is, without SQLite's cache, and returns SQLite's code: a page whose
+  /// checksum is wrong is SQLITE_IOERR_DATA.
+  int read_file(std::span<std::byte> to, std::int64_t offset) const;
+
   /// Turns a result code into an Error.
   [[noreturn]] void fail(int code) const;
 

@@ -40,6 +40,7 @@ struct ArchiveStore::Impl {
   std::optional<Database> database;
   bool writing = false;
   bool in_transaction = false;
+  int snapshots = 0;    ///< that live, one within another
   bool broken = false;  ///< a commit failed: nothing more is written
 
   /// The block that takes are being added to, not written yet.

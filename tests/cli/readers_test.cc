@@ -25,8 +25,9 @@ class ReadersTest : public CommandTest {
     const std::string ask =
         "n=0; while [ $n -eq 0 ] || [ ! -e done ]; do n=$((n + 1)); " REPRISE_COMMAND
         " list --json lib.rpz > " +
-        std::to_string(number) +
-        ".$n.json && " REPRISE_COMMAND " verify -q lib.rpz > /dev/null && " REPRISE_COMMAND
+        std::to_string(number) + ".$n.json && " REPRISE_COMMAND " verify lib.rpz > " +
+        std::to_string(number) + ".verify || { cat " + std::to_string(number) +
+        ".verify >&2; exit 1; }; " REPRISE_COMMAND
         " search -q lib.rpz --id s01/s01_01 --top 1 > /dev/null || exit 1; done";
     return std::make_unique<RunningCommand>(folder(), std::vector<std::string>{"sh", "-c", ask});
   }
