@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "quant/coded_bits.h"
 #include "quant/knot_contexts.h"
 #include "quant/numbers.h"
 
@@ -266,42 +267,6 @@ void for_scales_of(CurveKind kind, int columns, Do&& do_one) {
   }
 }
 
-struct Writer {
-  RangeEncoder& encoder;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
-    mixer.encode(encoder, contexts, bit);
-    return bit;
-  }
-  std::uint32_t plain(std::uint32_t value, int count) {
-    value &= (1u << count) - 1;
-    encoder.encode_plain(value, count);
-    return value;
-  }
-};
-
-struct Reader {
-  RangeDecoder& decoder;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool) {
-    return mixer.decode(decoder, contexts);
-  }
-  std::uint32_t plain(std::uint32_t, int count) { return decoder.decode_plain(count); }
-};
-
-struct Learner {
-  std::uint64_t& cost;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
-    cost += mixer.learn(contexts, bit);
-    return bit;
-  }
-  std::uint32_t plain(std::uint32_t value, int count) {
-    cost += static_cast<std::uint64_t>(count) << 16;
-    return value & ((1u << count) - 1);
-  }
-};
-
 /// Learns from what it chooses on the way.
 struct Chooser {
   const Eigen::MatrixXd& knots;
@@ -368,19 +333,19 @@ bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
 
 void KnotModel::encode(RangeEncoder& encoder, const KnotShape& shape, const QuantisedKnots& knots) {
   QuantisedKnots copy = knots;
-  KnotWalk<Writer>({encoder, mixer_}, scales_, shape, copy).run();
+  KnotWalk<BitWriter>({encoder, mixer_}, scales_, shape, copy).run();
 }
 
 QuantisedKnots KnotModel::decode(RangeDecoder& decoder, const KnotShape& shape) {
   QuantisedKnots knots = QuantisedKnots::Zero(shape.frames, shape.trajectories);
-  KnotWalk<Reader>({decoder, mixer_}, scales_, shape, knots).run();
+  KnotWalk<BitReader>({decoder, mixer_}, scales_, shape, knots).run();
   return knots;
 }
 
 double KnotModel::learn(const KnotShape& shape, const QuantisedKnots& knots) {
   QuantisedKnots copy = knots;
   std::uint64_t cost = 0;
-  KnotWalk<Learner>({cost, mixer_}, scales_, shape, copy).run();
+  KnotWalk<BitLearner>({cost, mixer_}, scales_, shape, copy).run();
   return static_cast<double>(cost) / 65536.0;
 }
 

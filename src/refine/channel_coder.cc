@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "quant/catmull_rom.h"
+#include "quant/coded_bits.h"
 
 namespace reprise {
 namespace {
@@ -198,42 +199,6 @@ class Walk {
   std::array<std::uint32_t, BitModelConstants::inputs> size_contexts_{}, sign_contexts_{};
 };
 
-struct Writer {
-  RangeEncoder& encoder;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
-    mixer.encode(encoder, contexts, bit);
-    return bit;
-  }
-  std::uint32_t plain(std::uint32_t value, int count) {
-    value &= (1u << count) - 1;
-    encoder.encode_plain(value, count);
-    return value;
-  }
-};
-
-struct Reader {
-  RangeDecoder& decoder;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool) {
-    return mixer.decode(decoder, contexts);
-  }
-  std::uint32_t plain(std::uint32_t, int count) { return decoder.decode_plain(count); }
-};
-
-struct Learner {
-  std::uint64_t& cost;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
-    cost += mixer.learn(contexts, bit);
-    return bit;
-  }
-  std::uint32_t plain(std::uint32_t value, int count) {
-    cost += static_cast<std::uint64_t>(count) << 16;
-    return value & ((1u << count) - 1);
-  }
-};
-
 std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
   std::array<std::size_t, BitModelConstants::inputs> sizes;
   for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = std::size_t{kinds} * context_counts[t];
@@ -246,20 +211,20 @@ ChannelCoder::ChannelCoder() : mixer_(table_sizes(), kinds) {}
 
 void ChannelCoder::encode(RangeEncoder& encoder, const ChannelKnotShape& shape,
                           const StepGrid& steps, ChannelKnots knots) {
-  Walk<Writer>({encoder, mixer_}, shape, steps, knots).run();
+  Walk<BitWriter>({encoder, mixer_}, shape, steps, knots).run();
 }
 
 ChannelKnots ChannelCoder::decode(RangeDecoder& decoder, const ChannelKnotShape& shape,
                                   const StepGrid& steps) {
   ChannelKnots knots = ChannelKnots::Zero(shape.frames, static_cast<Index>(shape.parents.size()));
-  Walk<Reader>({decoder, mixer_}, shape, steps, knots).run();
+  Walk<BitReader>({decoder, mixer_}, shape, steps, knots).run();
   return knots;
 }
 
 double ChannelCoder::learn(const ChannelKnotShape& shape, const StepGrid& steps,
                            ChannelKnots knots) {
   std::uint64_t cost = 0;
-  Walk<Learner>({cost, mixer_}, shape, steps, knots).run();
+  Walk<BitLearner>({cost, mixer_}, shape, steps, knots).run();
   return static_cast<double>(cost) / 65536;
 }
 
