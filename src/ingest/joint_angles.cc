@@ -36,12 +36,33 @@ double best_angle(const Matrix3d& matrix, int axis) {
   return std::atan2(matrix(k, j) - matrix(j, k), matrix(j, j) + matrix(k, k));
 }
 
-/// The proper rotation nearest to `matrix` (Kabsch).
-Matrix3d nearest_rotation(const Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3d sign = Matrix3d::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  return svd.matrixU() * sign * svd.matrixV().transpose();
+/// The inverse's transpose, times the determinant.
+Matrix3d cofactor_matrix(const Matrix3d& matrix) {
+  Matrix3d result;
+  result.col(0) = matrix.col(1).cross(matrix.col(2));
+  result.col(1) = matrix.col(2).cross(matrix.col(0));
+  result.col(2) = matrix.col(0).cross(matrix.col(1));
+  return result;
+}
+
+/// The mean of a matrix and its inverse's transpose, again and again, brings the singular values to
+/// 1 and leaves the directions (Higham, Computing the polar decomposition, 1986). False if it did
+/// not get there.
+bool iterate_to_rotation(Matrix3d& matrix) {
+  constexpr int most_steps = 12;
+  constexpr double close_enough = 1e-14;
+  for (int step = 0; step < most_steps; ++step) {
+    const Matrix3d cofactors = cofactor_matrix(matrix);
+    const double determinant = matrix.col(0).dot(cofactors.col(0));
+    const double inverse_norm = cofactors.squaredNorm() / (determinant * determinant);
+    // Scaled so that the first steps are as quick as the last.
+    const double scale = std::sqrt(std::sqrt(inverse_norm / matrix.squaredNorm()));
+    const Matrix3d next = (0.5 * scale) * matrix + (0.5 / (scale * determinant)) * cofactors;
+    const double moved = (next - matrix).squaredNorm();
+    matrix = next;
+    if (!(moved > close_enough)) return std::isfinite(moved);
+  }
+  return false;
 }
 
 /// Orthonormal axes with `first` along the first and `second` in the plane of the first two.
@@ -50,12 +71,22 @@ Matrix3d nearest_rotation(const Matrix3d& matrix) {
 Matrix3d basis(const Vector3d& first, const Vector3d& second) {
   constexpr double too_short = 1e-9;
   Matrix3d result;
-  result.col(0) = first.norm() > too_short ? first.normalized() : Vector3d::UnitX();
+  const double length = first.norm();
+  result.col(0) = length > too_short ? Vector3d(first / length) : Vector3d::UnitX();
   Vector3d rest = second - second.dot(result.col(0)) * result.col(0);
-  if (rest.norm() <= too_short) rest = result.col(0).unitOrthogonal();
-  result.col(1) = rest.normalized();
+  double rest_length = rest.norm();
+  if (rest_length <= too_short) {
+    rest = result.col(0).unitOrthogonal();
+    rest_length = 1;
+  }
+  result.col(1) = rest / rest_length;
   result.col(2) = result.col(0).cross(result.col(1));
   return result;
+}
+
+/// One target along the bone and one off it, which gives the turn about the bone.
+bool off_bone_pair(const MarkerLayout& layout, const DrivenJoint& driven) {
+  return driven.targets.size() == 2 && layout.markers[driven.targets[1].marker].off_bone;
 }
 
 /// Coordinate ascent on the trace of target^T E over the active angles, from where they are.
@@ -85,6 +116,21 @@ void ascend(const std::vector<RotationChannel>& rotations, const Matrix3d& targe
 }
 
 }  // namespace
+
+Matrix3d nearest_rotation(const Matrix3d& matrix) {
+  // With its cofactors added, a plane gets the normal that makes it proper, and a reflection turns
+  // into a rotation along its weakest direction.
+  const double norm = matrix.norm();
+  Matrix3d proper = matrix + cofactor_matrix(matrix) / norm;
+  constexpr double clearly_proper = 1e-4;
+  if (proper.determinant() > clearly_proper * norm * norm * norm && iterate_to_rotation(proper)) {
+    return proper;
+  }
+  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d sign = Matrix3d::Identity();
+  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  return svd.matrixU() * sign * svd.matrixV().transpose();
+}
 
 std::array<EulerAngles, 2> euler_angles(const Matrix3d& rotation, const std::array<int, 3>& axes,
                                         const EulerAngles& previous) {
@@ -124,7 +170,17 @@ JointAngleSolver::JointAngleSolver(const MarkerLayout& layout, std::span<const d
       driven_of_joint_(layout.reference.joints.size(), -1) {
   for (double& angle : angles_) angle /= degrees_per_radian;
   for (std::size_t d = 0; d < layout.driven.size(); ++d) {
-    driven_of_joint_[layout.driven[d].joint] = static_cast<int>(d);
+    const DrivenJoint& driven = layout.driven[d];
+    driven_of_joint_[driven.joint] = static_cast<int>(d);
+    const Matrix3d to_axes = layout.reference.joints[driven.joint].axis.transpose();
+    TargetsAtRest rest;
+    for (const OrientationTarget& target : driven.targets) {
+      rest.directions.emplace_back(to_axes * target.local);
+    }
+    if (off_bone_pair(layout, driven)) {
+      rest.to_basis = basis(rest.directions[0], rest.directions[1]).transpose();
+    }
+    at_rest_.push_back(std::move(rest));
   }
 }
 
@@ -135,32 +191,34 @@ void JointAngleSolver::look_near(std::size_t index, std::span<const double> degr
   }
 }
 
-Matrix3d JointAngleSolver::seen_rotation(const DrivenJoint& driven, std::span<const double> markers,
+Matrix3d JointAngleSolver::seen_rotation(std::size_t index, std::span<const double> markers,
                                          const Matrix3d& to_local, const Vector3d& centre) const {
+  const DrivenJoint& driven = layout_.driven[index];
+  const TargetsAtRest& rest = at_rest_[index];
   const auto seen = [&](const OrientationTarget& target) -> Vector3d {
     const Vector3d place = Eigen::Map<const Vector3d>(markers.data() + 3 * target.marker);
     return to_local * (layout_.markers[target.marker].off_bone ? place : Vector3d(place - centre));
   };
-  const Matrix3d& axis = layout_.reference.joints[driven.joint].axis;
   const auto& targets = driven.targets;
-  if (targets.size() == 2 && layout_.markers[targets[1].marker].off_bone) {
-    return basis(seen(targets[0]), seen(targets[1])) *
-           basis(axis.transpose() * targets[0].local, axis.transpose() * targets[1].local)
-               .transpose();
+  if (off_bone_pair(layout_, driven)) {
+    return basis(seen(targets[0]), seen(targets[1])) * rest.to_basis;
   }
   Matrix3d correlation = Matrix3d::Zero();
-  for (const OrientationTarget& target : targets) {
-    correlation += seen(target) * (axis.transpose() * target.local).transpose();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    correlation += seen(targets[t]) * rest.directions[t].transpose();
   }
   return targets.size() > 1 ? nearest_rotation(correlation) : correlation;
 }
 
-Matrix3d JointAngleSolver::solve_joint(const DrivenJoint& driven, std::span<const double> markers,
+Matrix3d JointAngleSolver::solve_joint(std::size_t index, std::span<const double> markers,
                                        const Matrix3d& parent, const Vector3d& centre,
                                        std::span<double> channels) {
+  const DrivenJoint& driven = layout_.driven[index];
+  // Joints of a BVH have no axes of their own.
+  const bool has_axis = layout_.reference.format == MotionFormat::asf_amc;
   const Matrix3d& axis = layout_.reference.joints[driven.joint].axis;
-  const Matrix3d to_local = (parent * axis).transpose();
-  Matrix3d local = seen_rotation(driven, markers, to_local, centre);
+  const Matrix3d to_world = has_axis ? Matrix3d(parent * axis) : parent;
+  Matrix3d local = seen_rotation(index, markers, to_world.transpose(), centre);
   if (turns_about_three_axes(driven.rotations)) {
     const auto& r = driven.rotations;
     const EulerAngles previous = {angles_[r[0].channel], angles_[r[1].channel],
@@ -178,7 +236,8 @@ Matrix3d JointAngleSolver::solve_joint(const DrivenJoint& driven, std::span<cons
   for (const RotationChannel& rotation : driven.rotations) {
     channels[rotation.channel] = angles_[rotation.channel] * degrees_per_radian;
   }
-  return parent * axis * local * axis.transpose();
+  const Matrix3d turned = to_world * local;
+  return has_axis ? Matrix3d(turned * axis.transpose()) : turned;
 }
 
 Matrix3d JointAngleSolver::solve(std::span<const double> markers, const Matrix3d* known_root,
@@ -199,9 +258,10 @@ Matrix3d JointAngleSolver::solve(std::span<const double> markers, const Matrix3d
       } else if (d >= 0) {
         // Seen without the root's own axes: its channels are found once the heading is known.
         const Matrix3d& axis = joints[j].axis;
-        rotations_[j] =
-            axis * seen_rotation(layout_.driven[d], markers, axis.transpose(), Vector3d::Zero()) *
-            axis.transpose();
+        rotations_[j] = axis *
+                        seen_rotation(static_cast<std::size_t>(d), markers, axis.transpose(),
+                                      Vector3d::Zero()) *
+                        axis.transpose();
       }
       continue;
     }
@@ -210,7 +270,7 @@ Matrix3d JointAngleSolver::solve(std::span<const double> markers, const Matrix3d
     const Vector3d centre =
         asf ? parent_place : Vector3d(parent_place + parent * layout_.offsets[j]);
     if (d >= 0) {
-      rotations_[j] = solve_joint(layout_.driven[d], markers, parent, centre, channels);
+      rotations_[j] = solve_joint(static_cast<std::size_t>(d), markers, parent, centre, channels);
     } else {
       Matrix3d local = Matrix3d::Identity();
       for (const RotationChannel& rotation : rotation_channels(joints[j])) {

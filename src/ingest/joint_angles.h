@@ -10,6 +10,10 @@
 
 namespace reprise {
 
+/// The proper rotation R with the largest trace of R^T matrix (Kabsch, A solution for the best
+/// rotation to relate two sets of vectors, 1976). Of a matrix that fits many, one of them.
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
+
 /// Euler angles (radians) of a rotation about three different axes, outermost first.
 using EulerAngles = std::array<double, 3>;
 
@@ -42,10 +46,17 @@ class JointAngleSolver {
                         std::span<double> channels);
 
  private:
-  Eigen::Matrix3d solve_joint(const DrivenJoint& driven, std::span<const double> markers,
+  /// Where the targets of a driven joint are seen while it is not turned.
+  struct TargetsAtRest {
+    std::vector<Eigen::Vector3d> directions;
+    Eigen::Matrix3d to_basis =
+        Eigen::Matrix3d::Identity();  ///< of a target on and one off the bone
+  };
+
+  Eigen::Matrix3d solve_joint(std::size_t index, std::span<const double> markers,
                               const Eigen::Matrix3d& parent, const Eigen::Vector3d& centre,
                               std::span<double> channels);
-  Eigen::Matrix3d seen_rotation(const DrivenJoint& driven, std::span<const double> markers,
+  Eigen::Matrix3d seen_rotation(std::size_t index, std::span<const double> markers,
                                 const Eigen::Matrix3d& to_local,
                                 const Eigen::Vector3d& centre) const;
 
@@ -54,6 +65,7 @@ class JointAngleSolver {
   std::vector<Eigen::Matrix3d> rotations_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<int> driven_of_joint_;
+  std::vector<TargetsAtRest> at_rest_;  ///< a driven joint each
 };
 
 }  // namespace reprise

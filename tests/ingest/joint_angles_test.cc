@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <numbers>
 #include <random>
 
@@ -71,6 +73,56 @@ INSTANTIATE_TEST_SUITE_P(Orders, AnglesOfAllOrders,
                          testing::Values(std::array{0, 1, 2}, std::array{0, 2, 1},
                                          std::array{1, 0, 2}, std::array{1, 2, 0},
                                          std::array{2, 0, 1}, std::array{2, 1, 0}));
+
+Eigen::Matrix3d random_matrix(std::mt19937& random) {
+  std::normal_distribution<double> number;
+  Eigen::Matrix3d matrix;
+  for (double& value : matrix.reshaped()) value = number(random);
+  return matrix;
+}
+
+/// The largest trace that a proper rotation reaches, from the singular values.
+double best_trace(const Eigen::Matrix3d& matrix) {
+  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(matrix).singularValues();
+  return values[0] + values[1] + (matrix.determinant() < 0 ? -values[2] : values[2]);
+}
+
+void expect_nearest(const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix3d found = nearest_rotation(matrix);
+  ASSERT_LT((found.transpose() * found - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  ASSERT_GT(found.determinant(), 0);
+  ASSERT_NEAR((found.transpose() * matrix).trace(), best_trace(matrix), 1e-9 * matrix.norm())
+      << matrix;
+}
+
+TEST(NearestRotation, ReachesTheLargestTrace) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Matrix3d matrix = random_matrix(random);
+    expect_nearest(matrix);  // reflections among them
+    expect_nearest(-matrix);
+    expect_nearest(1e-6 * matrix);
+    expect_nearest(1e6 * matrix);
+  }
+}
+
+TEST(NearestRotation, TwoDirectionsAreEnough) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Matrix3d from = random_matrix(random), to = random_matrix(random);
+    expect_nearest(to.leftCols<2>() * from.leftCols<2>().transpose());
+  }
+}
+
+TEST(NearestRotation, OneDirectionOrNoneStillGivesARotation) {
+  std::mt19937 random(5);
+  expect_nearest(Eigen::Matrix3d::Zero());
+  expect_nearest(-Eigen::Matrix3d::Identity());
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Matrix3d from = random_matrix(random), to = random_matrix(random);
+    expect_nearest(to.col(0) * from.col(0).transpose());
+  }
+}
 
 }  // namespace
 }  // namespace reprise
