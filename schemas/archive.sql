@@ -16,4 +16,4 @@ CREATE TABLE spaces(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES
 CREATE TABLE blocks(id INTEGER PRIMARY KEY, takes BLOB NOT NULL, digest BLOB NOT NULL, data BLOB NOT NULL);
 
 -- Where takes are found: by their names, and by the IDs of their clips.
-CREATE TABLE keys(key INTEGER NOT NULL, take INTEGER NOT NULL, PRIMARY KEY(key, take)) WITHOUT ROWID;
+CREATE TABLE keys(id INTEGER PRIMARY KEY, more BLOB NOT NULL);

@@ -16,9 +16,10 @@ struct ClipPlanConstants {
   double rate = 10;
   /// The shortest primary and repeated clip (s), and what is shorter than the other joins the clip
   /// beside it (s). lin-2011 section 4.2 has 0.6 s of a path, which is 0.3 s of a take, and 0.2 s;
-  /// there, rows of clips would be a tenth of an archive (docs/findings/2026-11-25-behaviours.md).
-  double least_clip_s = 3.0;
-  double least_rest_s = 1.5;
+  /// there, what clips take would be a tenth of an archive
+  /// (docs/findings/2026-11-25-behaviours.md).
+  double least_clip_s = 1.5;
+  double least_rest_s = 0.5;
   /// Windows for candidates: how many neighbours each looks for, and how far they are apart (s).
   std::size_t neighbours = 6;
   double hop_s = 0.5;

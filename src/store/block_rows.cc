@@ -5,6 +5,7 @@
 
 #include "store/block_columns.h"
 #include "store/compression.h"
+#include "store/key_rows.h"
 #include "store/store_impl.h"
 
 namespace reprise {
@@ -12,9 +13,9 @@ namespace {
 
 /// Blocks that are kept decoded.
 constexpr std::size_t most_known_blocks = 16;
-/// Ids beyond this would overflow as takes' ids.
-constexpr std::int64_t most_block_id = std::int64_t{1} << 56;
-constexpr int key_bits = 24;
+/// Takes of blocks beyond this have ids that keys cannot lead to.
+constexpr std::int64_t most_block_id =
+    (std::int64_t{1} << key_take_bits) / static_cast<std::int64_t>(TakeBlockLimits::takes) - 1;
 /// No block has more coded motion: one take of the largest kind on top of a full block.
 constexpr std::size_t most_layer = std::size_t{1} << 30;
 
@@ -85,6 +86,7 @@ ArchiveStore::Impl::OpenBlock& ArchiveStore::Impl::open_block() {
     open = OpenBlock{std::make_shared<TakeBlock>(*newest), block_data(id)};
     if (open->data.size() != newest->data_size()) throw_damaged(id);
   } else {
+    if (id >= most_block_id) throw Error(ErrorCode::limit, "the archive can take no more takes");
     open = OpenBlock{std::make_shared<TakeBlock>(TakeBlock{id + 1, {}}), {}};
   }
   return *open;
@@ -111,30 +113,20 @@ void ArchiveStore::Impl::flush() {
 }
 
 void ArchiveStore::Impl::add_keys(std::int64_t take, const std::set<std::int64_t>& keys) {
-  for (const std::int64_t key : keys) {
-    prepare("INSERT INTO keys(key, take) VALUES(?,?)").bind(key).bind(take).run();
-  }
+  for (const std::int64_t key : keys) KeyRows(*database).add(key, take);
 }
 
 void ArchiveStore::Impl::remove_keys(std::int64_t take, const std::set<std::int64_t>& keys) {
-  for (const std::int64_t key : keys) {
-    prepare("DELETE FROM keys WHERE key=? AND take=?").bind(key).bind(take).run();
-  }
+  for (const std::int64_t key : keys) KeyRows(*database).remove(key, take);
 }
 
 std::vector<std::int64_t> ArchiveStore::Impl::takes_with_keys(std::int64_t first,
                                                               std::int64_t last) const {
-  Statement row = prepare("SELECT DISTINCT take FROM keys WHERE key BETWEEN ? AND ?");
-  row.bind(first).bind(last);
-  std::vector<std::int64_t> takes;
-  while (row.step()) takes.push_back(row.integer());
-  std::ranges::sort(takes);
-  return takes;
+  return KeyRows(*database).takes(first, last);
 }
 
 std::int64_t key_of_address(std::uint64_t address) {
-  return static_cast<std::int64_t>(address >> (64 - key_bits)) -
-         (std::int64_t{1} << (key_bits - 1));
+  return static_cast<std::int64_t>(address >> (64 - key_bits));
 }
 
 std::int64_t key_of_name(const std::string& name) {

@@ -1,6 +1,7 @@
 // Reads every page and every row.
 #include <algorithm>
 
+#include "store/key_rows.h"
 #include "store/schema.h"
 #include "store/store_impl.h"
 
@@ -63,7 +64,7 @@ void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
   const Database& database = *impl_->database;
   Digest sum{};
   bool whole = true;
-  std::int64_t keys = 0;
+  std::size_t keys = 0;
   const auto check_take = [&](const TakeBlock& block, const StoredTake& take) {
     const std::int64_t id = block.id_of(take);
     add_to_sum(sum, content_of(id));
@@ -92,8 +93,7 @@ void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
       whole = whole && damaged.size() == before;
     }
     if (!whole) return;
-    if (keys != number(database, "SELECT count(*) FROM keys"))
-      damaged.push_back({"keys", "some lead to no take"});
+    if (keys != KeyRows(database).count()) damaged.push_back({"keys", "some lead to no take"});
     Statement row(database, "SELECT value FROM meta WHERE key='content'");
     if (!row.step() || !std::ranges::equal(row.bytes(), sum))
       damaged.push_back({"takes", "they are not those that were stored"});

@@ -87,8 +87,7 @@ struct ArchiveStore::Impl {
   std::vector<std::int64_t> takes_with_keys(std::int64_t first, std::int64_t last) const;
 };
 
-/// Keys are the first 24 bits of digests and addresses, moved so that SQLite stores them in three
-/// bytes and their order stays.
+/// Keys are the first 24 bits of digests and addresses.
 std::int64_t key_of_address(std::uint64_t address);
 std::int64_t key_of_name(const std::string& name);
 /// Of a take: its leaf, its whole name, and all its clips.

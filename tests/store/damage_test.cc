@@ -104,7 +104,7 @@ TEST_F(Damage, NewerFormatsAreNamed) {
 TEST_F(Damage, ForeignTablesAndTriggersAreRefused) {
   for (const char* sql : {"CREATE TABLE more(x)", "CREATE VIEW v AS SELECT 1",
                           "CREATE TRIGGER t AFTER INSERT ON blocks BEGIN DELETE FROM blocks; END",
-                          "CREATE INDEX i ON keys(take)", "DROP TABLE keys"}) {
+                          "CREATE INDEX i ON keys(more)", "DROP TABLE keys"}) {
     fs::remove(path_);
     make_sample(path_, 1);
     run_sql(sql);
@@ -137,8 +137,11 @@ TEST_F(Damage, RowsThatWereChangedAreErrors) {
 
 TEST_F(Damage, MissingRowsAreFoundByTheCheck) {
   for (const char* sql :
-       {"DELETE FROM blocks WHERE id=1", "INSERT INTO keys VALUES(1, 9999)",
-        "DELETE FROM keys WHERE take=66", "UPDATE keys SET key=key+1 WHERE take=67",
+       {"DELETE FROM blocks WHERE id=1", "INSERT INTO keys VALUES(9999, x'00')",
+        "DELETE FROM keys WHERE id=(SELECT max(id) FROM keys)", "UPDATE keys SET id=id+1",
+        "UPDATE keys SET id=-id", "UPDATE keys SET more=x''", "UPDATE keys SET more=x'00'",
+        "UPDATE keys SET more=x'7f'", "UPDATE keys SET more=more||x'00'",
+        "UPDATE keys SET id=9223372036854775807 WHERE id=(SELECT max(id) FROM keys)",
         "UPDATE blocks SET data=data||x'00' WHERE id=1"}) {
     fs::remove(path_);
     make_sample(path_, 9);
