@@ -196,9 +196,10 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
           postures.push_back(std::move(own));
           tick(fresh[i]->file.name);
         });
-    SkeletonPlanner planner(
-        stored.motions(skeleton, root, constants.rate, constants.most_stored_takes), fresh,
-        constants, options.jobs);
+    const std::size_t most_stored =
+        std::min(constants.most_stored_takes, constants.stored_takes_per_new * fresh.size());
+    SkeletonPlanner planner(stored.motions(skeleton, root, constants.rate, most_stored), fresh,
+                            constants, options.jobs);
     planner.plan(std::move(postures), next_group, plan);
   }
   return plan;

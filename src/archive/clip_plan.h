@@ -25,8 +25,10 @@ struct ClipPlanConstants {
   double hop_s = 0.5;
   /// No repeats are looked for around a clip of which this part is explained by others.
   double explained_cover = 0.5;
-  /// Stored takes that new ones are compared with; those with primaries come first.
+  /// Stored takes that new ones are compared with, in all and for each of them, so that few new
+  /// ones cost little; those with primaries come first.
   std::size_t most_stored_takes = 256;
+  std::size_t stored_takes_per_new = 16;
 };
 
 /// A clip of a take by name.
