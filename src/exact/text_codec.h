@@ -1,5 +1,5 @@
 // A motion file's text byte for byte: its numbers as integers, predicted and range coded, and
-// what surrounds them. Decoding uses integers alone. docs/format.md describes the coded form.
+// what surrounds them. Decoding uses integers alone. docs/format-texts.md describes the coded form.
 #pragma once
 
 #include <cstdint>

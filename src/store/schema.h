@@ -11,8 +11,7 @@ constexpr std::int32_t application_id = 0x52505253;
 /// version only adds what an older reader may leave aside.
 constexpr int format_version = 1000;
 
-/// The smallest page that keeps a small archive small; docs/findings/2026-11-24-page-size.md has
-/// the numbers.
+/// Bytes. Small, so that the half-empty page at the end of each table costs a small archive little.
 constexpr int page_size = 1024;
 
 /// The statements of schemas/archive.sql, one a line.
