@@ -50,8 +50,7 @@ Json error_document(const Error& error) {
 }
 
 ExitCode report(const Error& error, const Console& console) {
-  const std::string advice = error.advice().empty() ? "" : "; " + error.advice();
-  console.complaint("reprise: " + printable(error.what() + advice));
+  console.complaint("reprise: " + printable(error.what()));
   console.document(error_document(error));
   return exit_code(error.code());
 }
@@ -63,7 +62,9 @@ Error as_error(const std::exception& exception) {
   }
   if (const auto* system = dynamic_cast<const std::system_error*>(&exception)) {
     const bool full = system->code() == std::errc::no_space_on_device;
-    return Error(full ? ErrorCode::limit : ErrorCode::failed, system->what());
+    const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(system);
+    return Error(full ? ErrorCode::limit : ErrorCode::failed, system->code().message(),
+                 {file != nullptr ? file->path1().string() : std::string(), 0});
   }
   return Error(ErrorCode::failed, exception.what());
 }

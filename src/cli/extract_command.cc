@@ -19,12 +19,14 @@ namespace {
 /// Writes takes into files, each AMC with its ASF.
 class MotionWriter {
  public:
-  explicit MotionWriter(bool overwrite) : overwrite_(overwrite) {}
+  MotionWriter(const fs::path& archive, bool overwrite)
+      : archive_(archive), overwrite_(overwrite) {}
 
   /// Returns the files written, the motion (`text`) first.
   std::vector<fs::path> write(const Skeleton& skeleton, const std::string& text,
                               const fs::path& target) {
     std::vector<fs::path> files{target};
+    refuse_archive(target, archive_);
     if (skeleton.format == MotionFormat::asf_amc) files.push_back(write_skeleton(skeleton, target));
     write_file_atomically(target, text, overwrite_);
     return files;
@@ -47,6 +49,7 @@ class MotionWriter {
       throw Error(ErrorCode::failed, "the skeleton and the motion would be one file",
                   {target.string(), 0}, "give the motion a name that ends in .amc");
     }
+    refuse_archive(target, archive_);
     if (!file_has_content(target, skeleton.source_text)) {
       write_file_atomically(target, skeleton.source_text, overwrite_);
     }
@@ -63,6 +66,7 @@ class MotionWriter {
     return stem + ".asf";
   }
 
+  fs::path archive_;
   bool overwrite_;
   std::map<std::string, std::string> written_;  ///< path of an ASF and its text
 };
@@ -180,7 +184,7 @@ ExitCode ExtractCommand::run(Console& console) {
   }
 
   Json entries = Json::array();
-  MotionWriter writer(overwrite_);
+  MotionWriter writer(archive_, overwrite_);
   ProgressBar bar("extract", console.progress_terminal());
   for (std::size_t i = 0; i < plan.size(); ++i) {
     InterruptionGuard::check();

@@ -24,7 +24,7 @@ constexpr double frame_tolerance = 1e-6;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view wanted) {
   throw Error(ErrorCode::usage,
-              fmt::format("{} takes {}, not \"{}\".", option, wanted, printable(text)));
+              fmt::format("{} takes {}, not \"{}\"", option, wanted, printable(text)));
 }
 
 /// All of `text` by from_chars, or nothing.

@@ -25,6 +25,11 @@ namespace {
               fmt::format("{}: {}", what, std::strerror(number)), {path.string(), 0});
 }
 
+[[noreturn]] void refuse_special(const fs::path& path) {
+  throw Error(ErrorCode::failed, "this is not a regular file, and is not replaced",
+              {path.string(), 0}, "-o - writes to stdout");
+}
+
 /// A new file beside the one meant. It is gone when this ends, unless it was renamed.
 class TemporaryFile {
  public:
@@ -117,13 +122,17 @@ void refuse_links_below(const fs::path& folder, std::string_view name) {
 
 void write_file_atomically(const fs::path& path, std::string_view content, bool overwrite) {
   const fs::file_status status = fs::status(path);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(ErrorCode::failed, "this is not a regular file, and is not replaced",
-                {path.string(), 0});
-  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) refuse_special(path);
   TemporaryFile file(path);
   file.write(content);
   file.finish(overwrite);
+}
+
+void refuse_archive(const fs::path& path, const fs::path& archive) {
+  std::error_code error;
+  if (!fs::equivalent(path, archive, error) || error) return;
+  throw Error(ErrorCode::failed, "this is the archive itself, and is not replaced",
+              {path.string(), 0});
 }
 
 bool file_has_content(const fs::path& path, std::string_view content) {
@@ -138,6 +147,12 @@ bool file_has_content(const fs::path& path, std::string_view content) {
 }
 
 void refuse_existing(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) {
+    throw Error(ErrorCode::failed, "this is a folder, not a file", {path.string(), 0});
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) refuse_special(path);
   throw Error(ErrorCode::failed, "the file exists already", {path.string(), 0},
               "--overwrite replaces it");
 }

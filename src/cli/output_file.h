@@ -23,6 +23,10 @@ void refuse_links_below(const std::filesystem::path& folder, std::string_view na
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            bool overwrite);
 
+/// Throws Error (failed) where `path` is the file of `archive`: nothing taken out of an archive
+/// replaces it.
+void refuse_archive(const std::filesystem::path& path, const std::filesystem::path& archive);
+
 /// True if the file is there and has exactly this content.
 bool file_has_content(const std::filesystem::path& path, std::string_view content);
 

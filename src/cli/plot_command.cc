@@ -120,6 +120,7 @@ ExitCode PlotCommand::run(Console& console) {
       std::filesystem::exists(std::filesystem::symlink_status(file_))) {
     refuse_existing(file_);
   }
+  if (!to_stdout) refuse_archive(file_, archive_);
   const Picture picture = summary_.empty() ? self_distance_picture(archive, console)
                                            : summary_picture(archive, console);
   if (to_stdout) {

@@ -15,11 +15,23 @@ namespace fs = std::filesystem;
 /// of them.
 std::map<std::string, fs::path> sources_under(const fs::path& folder) {
   std::map<std::string, fs::path> sources;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || !is_motion_file(entry.path())) continue;
-    fs::path relative = entry.path().lexically_relative(folder);
-    sources.emplace(relative.generic_string(), entry.path());
-    sources.emplace(relative.replace_extension().generic_string(), entry.path());
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw Error(ErrorCode::failed,
+                fs::exists(folder, error) ? "this is not a folder" : "there is no such folder",
+                {folder.string()});
+  }
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    if (!entry->is_regular_file(ignored) || !is_motion_file(entry->path())) continue;
+    fs::path relative = entry->path().lexically_relative(folder);
+    sources.emplace(relative.generic_string(), entry->path());
+    sources.emplace(relative.replace_extension().generic_string(), entry->path());
+  }
+  if (error) {
+    throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
+                {folder.string()});
   }
   return sources;
 }
@@ -53,7 +65,13 @@ class TakeCheck {
 
   std::vector<Damage> run(const fs::path* source, const ReadOptions& read) {
     std::optional<Take> original;
-    if (source != nullptr) original = read_motion_file(*source, read);
+    try {
+      if (source != nullptr) original = read_motion_file(*source, read);
+    } catch (const Error& error) {
+      // What is wrong with a source is no damage of the archive.
+      note(std::string("its source cannot be read: ") + error.what(), true);
+      source = nullptr;
+    }
     for (std::size_t i = 0; i < record_.layers.size(); ++i) {
       std::string text;
       const Take decoded = decode_layer(archive_, record_, i, &text);

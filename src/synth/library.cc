@@ -65,8 +65,8 @@ void write_file(const fs::path& path, const std::string& text) {
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
   file.close();
   if (!file) {
-    throw Error(ErrorCode::failed, "The file cannot be written.", {path.string(), 0},
-                "Check the folder's permissions and the space on its disk.");
+    throw Error(ErrorCode::failed, "the file cannot be written", {path.string(), 0},
+                "check the folder's permissions and the space on its disk");
   }
 }
 
@@ -74,8 +74,8 @@ void refuse_existing(const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) continue;
-    throw Error(ErrorCode::failed, "The file exists already.", {path.string(), 0},
-                "Choose another folder, or pass --overwrite to replace it.");
+    throw Error(ErrorCode::failed, "the file exists already", {path.string(), 0},
+                "choose another folder, or replace it with --overwrite");
   }
 }
 
@@ -83,8 +83,8 @@ void make_folder(const fs::path& folder) {
   std::error_code problem;
   fs::create_directories(folder, problem);
   if (problem) {
-    throw Error(ErrorCode::failed, "The folder cannot be made: " + problem.message() + ".",
-                {folder.string(), 0}, "Check the permissions of the folder above it.");
+    throw Error(ErrorCode::failed, "the folder cannot be made: " + problem.message(),
+                {folder.string(), 0}, "check the permissions of the folder above it");
   }
 }
 

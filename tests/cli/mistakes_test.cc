@@ -1,0 +1,67 @@
+// Mistakes of everyday use: what they must never destroy, and that each is told once and clearly.
+#include <algorithm>
+
+#include "cli/command_runner.h"
+
+namespace fs = std::filesystem;
+
+namespace reprise::cli {
+namespace {
+
+class MistakesTest : public CommandTest {};
+
+TEST_F(MistakesTest, AdviceIsGivenOnce) {
+  const std::string said = reprise({"list"}).err;
+  const std::string advice = "see reprise list --help";
+  const std::size_t at = said.find(advice);
+  ASSERT_NE(at, std::string::npos) << said;
+  EXPECT_EQ(said.find(advice, at + 1), std::string::npos) << said;
+}
+
+TEST_F(MistakesTest, AnArchiveIsNeverReplacedByWhatComesOutOfIt) {
+  make_library();
+  const std::string archive = read_file(folder() / "lib.rpz");
+  const std::string take = take_names().front();
+  fs::create_hard_link(folder() / "lib.rpz", folder() / "other.bvh");
+  for (const char* file : {"lib.rpz", "./lib.rpz", "other.bvh"}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"extract", "lib.rpz", take},
+          std::vector<std::string>{"plot", "lib.rpz", "--summary", take}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"-o", file, "--overwrite"});
+      const Outcome outcome = reprise(words);
+      EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+      EXPECT_NE(outcome.err.find("the archive itself"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(read_file(folder() / file), archive);
+  }
+}
+
+TEST_F(MistakesTest, AFolderOrADeviceInPlaceOfAFileIsCalledWhatItIs) {
+  make_library();
+  const std::string take = take_names().front();
+  EXPECT_NE(reprise({"extract", "lib.rpz", take, "-o", "takes"}).err.find("folder"),
+            std::string::npos);
+  const Outcome device = reprise({"extract", "lib.rpz", take, "-o", "/dev/null"});
+  EXPECT_EQ(device.exit_code, 1);
+  EXPECT_EQ(device.err.find("--overwrite"), std::string::npos) << device.err;
+}
+
+TEST_F(MistakesTest, WhatIsWrongWithASourceIsNoDamageOfTheArchive) {
+  make_library();
+  const std::string take = take_names().front();
+  write_file(folder() / "takes" / (take + ".bvh"), "junk\n");
+  const nlohmann::json report = document({"verify", "lib.rpz", "--against", "takes"}, 1);
+  ASSERT_EQ(report.at("damaged").size(), 1U);
+  EXPECT_NE(report.at("damaged")[0].at("why").get<std::string>().find(take + ".bvh:1: "),
+            std::string::npos);
+  for (const char* source : {"nowhere", "lib.rpz"}) {
+    const Outcome outcome = reprise({"verify", "lib.rpz", "--against", source});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.err.rfind(std::string("reprise: ") + source + ": ", 0), 0U) << outcome.err;
+    EXPECT_NE(outcome.err.find("folder"), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace reprise::cli
