@@ -159,6 +159,17 @@ CandidateWindows::CandidateWindows(std::vector<const PostureTrack*> tracks)
   index_ = WindowIndex(windows_.apply(rows));
 }
 
+std::vector<Neighbour> CandidateWindows::accepted_neighbours(
+    std::span<const float> point, const std::vector<bool>& accept) const {
+  for (std::size_t asked = K::neighbours;; asked *= 2) {
+    std::vector<Neighbour> near = index_.nearest(point, asked);
+    const bool last = near.size() < asked || asked >= K::most_neighbours_seen;
+    std::erase_if(near, [&](const Neighbour& n) { return !accept[track_of_[n.point]]; });
+    if (near.size() > K::neighbours) near.resize(K::neighbours);
+    if (last || near.size() == K::neighbours) return near;
+  }
+}
+
 std::vector<Candidate> CandidateWindows::find(const PostureTrack& query, const Stretch& stretch,
                                               std::size_t count,
                                               const std::vector<bool>& accept) const {
@@ -175,11 +186,10 @@ std::vector<Candidate> CandidateWindows::find(const PostureTrack& query, const S
                                    LikenessConstants::bearing_taken_out));
       const Eigen::Map<const PointMatrix> flat(samples.data(), 1, samples.size());
       const PointMatrix point = windows_.apply(flat);
-      const auto near =
-          index_.nearest({point.data(), static_cast<std::size_t>(point.size())}, K::neighbours);
+      const std::vector<Neighbour> near =
+          accepted_neighbours({point.data(), static_cast<std::size_t>(point.size())}, accept);
       const double furthest = near.empty() ? 0.0 : std::sqrt(near.back().squared_distance);
       for (const Neighbour& n : near) {
-        if (!accept[track_of_[n.point]]) continue;
         const double begins = double{begin_of_[n.point]} - offset / speed;
         const double weight =
             1e-3 + (furthest > 0 ? 1 - std::sqrt(n.squared_distance) / furthest : 1);

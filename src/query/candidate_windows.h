@@ -24,6 +24,8 @@ struct CandidateConstants {
   static constexpr long training_rows = 4096;
   /// Windows of the library that a window of the query votes for.
   static constexpr std::size_t neighbours = 100;
+  /// Where most of the nearest are of tracks that are left out, this many are looked at for it.
+  static constexpr std::size_t most_neighbours_seen = 1600;
   /// Votes for starts about this near (s) go together.
   static constexpr double vote_bin = 0.4;
   /// The same of candidates, which may still move.
@@ -64,6 +66,11 @@ class CandidateWindows {
                               const std::vector<bool>& accept) const;
 
  private:
+  /// The `neighbours` windows of accepted tracks that are nearest to a point; fewer, if there are
+  /// fewer among the nearest `most_neighbours_seen` of all.
+  std::vector<Neighbour> accepted_neighbours(std::span<const float> point,
+                                             const std::vector<bool>& accept) const;
+
   std::vector<const PostureTrack*> tracks_;
   RowBasis postures_;
   RowBasis windows_;

@@ -19,6 +19,10 @@ constexpr std::size_t least_compared = 300;
 constexpr double longest_whole = 2.0;
 /// mm that a factor e between a take's length and that of a whole example counts against its parts.
 constexpr double part_weight = 100.0;
+/// Motion that recurs does so next to itself more often than elsewhere: about this many of the best
+/// places of a part, so many steps of half a length to both sides are looked at as well.
+constexpr std::size_t places_looked_about = 12;
+constexpr int steps_looked_about = 2;
 /// Rows of the example when its place in a take is looked for.
 constexpr int most_fitted_rows = 64;
 
@@ -48,6 +52,13 @@ bool better(const Match& a, const Match& b) {
   return std::tuple(a.unlikeness, a.take, a.stretch.begin) <
          std::tuple(b.unlikeness, b.take, b.stretch.begin);
 }
+
+/// An example of which parts are compared.
+struct PartExample {
+  const Example& example;
+  double seconds;
+  MotionForm form;
+};
 
 Stretch whole_of(const PostureTrack& track) {
   return {0, static_cast<double>(track.frames() - 1) / PostureConstants::rate};
@@ -84,6 +95,21 @@ Stretch fitted(const Example& example, const PostureTrack& track, const Stretch&
           region.begin + static_cast<double>(fit.end - 1) * step};
 }
 
+/// The best matches that do not share more than half of themselves with a better one.
+std::vector<Match> best_places(std::vector<Match> matches, std::size_t count) {
+  std::ranges::sort(matches, better);
+  std::vector<Match> places;
+  for (const Match& match : matches) {
+    if (places.size() == count) break;
+    const bool doubled = std::ranges::any_of(places, [&](const Match& place) {
+      return place.take == match.take &&
+             covered(match.stretch, place.stretch) > CandidateConstants::most_overlap;
+    });
+    if (!doubled) places.push_back(match);
+  }
+  return places;
+}
+
 }  // namespace
 
 struct MotionSearch::Impl {
@@ -99,6 +125,9 @@ struct MotionSearch::Impl {
                                    const std::vector<bool>& accept, std::size_t count) const;
   std::vector<Match> part_matches(PlanGroup& group, const Example& example,
                                   const std::vector<bool>& accept, std::size_t count) const;
+  void compare_part(const PartExample& part, std::size_t take, const Stretch& wanted,
+                    std::vector<Match>& matches) const;
+  void look_about(const PartExample& part, std::vector<Match>& matches) const;
   std::vector<Match> matches_of(PlanGroup& group, const Example& example,
                                 const std::vector<bool>& accept, std::size_t count) const;
   std::vector<SearchResult> search(const Example& example, const SearchOptions& options);
@@ -147,33 +176,53 @@ std::vector<Match> MotionSearch::Impl::whole_matches(PlanGroup& group, const Exa
   return matches;
 }
 
+/// Adds a stretch of a take near to the wanted one, and where the example fits best about it.
+void MotionSearch::Impl::compare_part(const PartExample& part, std::size_t take,
+                                      const Stretch& wanted, std::vector<Match>& matches) const {
+  const Example& example = part.example;
+  const PostureTrack& track = takes[take].track;
+  const double length = whole_of(track).seconds();
+  const Stretch about = shifted_into(wanted, length);
+  // Where windows overlap, several candidates have one best fit: as they are, they may still be
+  // occurrences of their own.
+  for (const Stretch& stretch : {fitted(example, track, about), about}) {
+    if (stretch.seconds() <= 0) continue;
+    if (takes[take].name == example.name && covered(stretch, example.stretch) > 0) continue;
+    const int samples = static_cast<int>(part.form.rows.rows());
+    double difference = unlikeness(part.form, motion_form(track, stretch, samples));
+    // A part of a take is less like a whole example than a take of its length.
+    if (example.whole) {
+      difference = std::hypot(difference, part_weight * std::log(length / part.seconds));
+    }
+    matches.push_back({take, stretch, difference});
+  }
+}
+
+/// Adds what lies about the best places, in their length and in the example's.
+void MotionSearch::Impl::look_about(const PartExample& part, std::vector<Match>& matches) const {
+  for (const Match& place : best_places(matches, places_looked_about)) {
+    const double length = place.stretch.seconds();
+    for (int step = -steps_looked_about; step <= steps_looked_about; ++step) {
+      const double begin = place.stretch.begin + step * length / 2;
+      compare_part(part, place.take, {begin, begin + length}, matches);
+      compare_part(part, place.take, {begin, begin + part.seconds}, matches);
+    }
+  }
+}
+
 std::vector<Match> MotionSearch::Impl::part_matches(PlanGroup& group, const Example& example,
                                                     const std::vector<bool>& accept,
                                                     std::size_t count) const {
   if (!group.windows) group.windows.emplace(tracks_of(group));
   const double seconds = seconds_of(example);
-  const int samples = samples_for(seconds);
-  const MotionForm form = motion_form(*example.track, example.stretch, samples);
+  const PartExample part = {example, seconds,
+                            motion_form(*example.track, example.stretch, samples_for(seconds))};
   std::vector<Match> matches;
   for (const Candidate& candidate :
        group.windows->find(*example.track, example.stretch, count, accept)) {
-    const std::size_t take = group.takes[candidate.track];
-    const PostureTrack& track = takes[take].track;
-    const double length = whole_of(track).seconds();
-    const Stretch about = shifted_into(candidate.stretch, length);
-    // Where windows overlap, several candidates have one best fit: as they are, they may still be
-    // occurrences of their own.
-    for (const Stretch& stretch : {fitted(example, track, about), about}) {
-      if (stretch.seconds() <= 0) continue;
-      if (takes[take].name == example.name && covered(stretch, example.stretch) > 0) continue;
-      MotionForm found = motion_form(track, stretch, samples);
-      double difference = unlikeness(form, found);
-      // A part of a take is less like a whole example than a take of its length.
-      if (example.whole)
-        difference = std::hypot(difference, part_weight * std::log(length / seconds));
-      matches.push_back({take, stretch, difference});
-    }
+    compare_part(part, group.takes[candidate.track], candidate.stretch, matches);
   }
+  if (!example.whole) look_about(part, matches);
   return matches;
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "reprise/error.h"
+#include "reprise/formats/motion_file.h"
 #include "reprise/synth/library.h"
 
 namespace reprise {
@@ -136,6 +137,31 @@ TEST_F(MotionSearchTest, PlantedRepeatsAreFoundWhereTheyAre) {
   }
   ASSERT_GT(asked, 5u);
   EXPECT_GE(found * 10, asked * 7) << found << " of " << asked;
+}
+
+TEST_F(MotionSearchTest, AMotionThatGoesOnIsFoundAsOftenAsItFits) {
+  write_takes(6);
+  const long half = std::lround(2 * library_.takes[0].frame_rate);
+  const ChannelMatrix forth = library_.takes[0].channels.topRows(half);
+  const ChannelMatrix back = forth.colwise().reverse();
+  Take take = library_.takes[0];
+  take.name = "again";
+  take.channels.resize(12 * half, forth.cols());
+  for (long i = 0; i < 12; ++i) take.channels.middleRows(i * half, half) = i % 2 ? back : forth;
+  std::ofstream(folder_ / "takes" / "again.bvh") << write_bvh(take);
+  store({folder_ / "takes"});
+
+  MotionSearch search(archive());
+  SearchOptions options;
+  options.from = 0;
+  options.to = 4;
+  options.all_occurrences = true;
+  std::size_t found = 0;
+  for (const SearchResult& result : search.like(Archive(archive()).find_take("again"), options)) {
+    found += result.take == "again";
+  }
+  // Five times are left after the example; others start within one time and end in the next.
+  EXPECT_GT(found, 5u);
 }
 
 TEST_F(MotionSearchTest, BodiesOfOtherSkeletonsAreCompared) {
