@@ -1,238 +1,15 @@
 #include "quant/trajectory_codec.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 
 #include "quant/coded_bits.h"
 #include "quant/knot_contexts.h"
+#include "quant/knot_walk.h"
 #include "quant/numbers.h"
 
 namespace reprise {
 namespace {
-
-using Eigen::Index;
-
-/// Magnitudes up to this are coded one by one, larger ones by their number of bits.
-constexpr int unary_limit = 6;
-constexpr int exponent_bits = 5;
-/// Contexts tell no difference between larger magnitudes than this.
-constexpr int context_limit = 1 << 20;
-constexpr std::uint32_t root_slots = 8;
-constexpr std::uint32_t end_slots = 7;  ///< bits of the number of the last trajectory in use
-/// The bin of a scale that is as large as the step.
-constexpr int scale_bias = 8;
-
-/// Small numbers apart, large ones by their logarithm.
-std::uint32_t bin(int magnitude) {
-  if (magnitude < 4) return static_cast<std::uint32_t>(magnitude);
-  return magnitude < 6 ? 4 : magnitude < 10 ? 5 : magnitude < 20 ? 6 : 7;
-}
-
-std::uint32_t fine_bin(int magnitude) {
-  if (magnitude < 12) return static_cast<std::uint32_t>(magnitude);
-  int bits = 0;
-  while (magnitude >> (bits + 1)) ++bits;  // 12 has 3
-  const int half = magnitude >> (bits - 1) & 1;
-  return static_cast<std::uint32_t>(
-      std::min<int>(12 + 2 * (bits - 3) + half, KnotContexts::fine_magnitudes - 1));
-}
-
-int sign_code(int value) { return value < 0 ? 1 : value > 0 ? 2 : 0; }
-
-/// Walks over the knots, coarse to fine, frame by frame, and codes each bit with `io`, which
-/// writes, reads or learns.
-template <class Io>
-class KnotWalk {
- public:
-  KnotWalk(Io io, const KnotScales& scales, const KnotShape& shape, QuantisedKnots& knots)
-      : io_(io), scales_(scales), shape_(shape), knots_(knots) {}
-
-  void run() {
-    for (const KnotGroup& group : knot_order(shape_)) {
-      const int end = code_end(group);
-      for (const KnotRow& row : group.rows) {
-        for (int column = group.first_column; column < end; ++column) code_knot(group, row, column);
-      }
-    }
-  }
-
- private:
-  /// One past the last trajectory that has a knot in this group.
-  int code_end(const KnotGroup& group) {
-    int end = group.first_column;
-    for (const KnotRow& row : group.rows) {
-      for (int column = group.last_column - 1; column >= end; --column) {
-        if (knots_(row.row, column) != 0) end = column + 1;
-      }
-    }
-    const auto slot = u(group.slot);
-    const auto most = static_cast<unsigned>(group.last_column - group.first_column);
-    const unsigned used = static_cast<unsigned>(end - group.first_column);
-    std::uint32_t node = 1;
-    for (int b = std::bit_width(most) - 1; b >= 0; --b) {
-      const std::uint32_t bits = std::min<std::uint32_t>(node, (1u << end_slots) - 1);
-      BitMixer::Contexts contexts;
-      for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
-        contexts.counter[t] =
-            decision_count * KnotContexts::count[t] + (t == 0 ? slot << end_slots | bits : 0);
-      }
-      contexts.weights = decision_count;
-      node = node << 1 | io_(contexts, (used >> b & 1) != 0);
-    }
-    return group.first_column +
-           static_cast<int>(std::min(node - (1u << std::bit_width(most)), most));
-  }
-
-  /// A knot that is coded already, as contexts see it; 0 outside.
-  int at(Index frame, int column) const {
-    const bool inside =
-        frame >= 0 && frame < shape_.frames && column >= 0 && column < shape_.trajectories;
-    return inside ? std::clamp(knots_(frame, column), -context_limit, context_limit) : 0;
-  }
-
-  void code_knot(const KnotGroup& group, const KnotRow& row, int column) {
-    const Index frame = row.row;
-    const bool coarsest = group.coarsest;
-    const auto slot = u(group.slot);
-    const int before = at(row.before, column), before_that = at(row.before_that, column);
-    const int left = at(row.left, column), right = at(row.right, column);
-    const int beside = at(frame, column - 1), beside_that = at(frame, column - 2);
-    const int predicted = coarsest ? prediction(row.before, column) : 0;
-    // Far above the prediction only what differs from it counts.
-    const int a = std::abs(coarsest && predicted != 0 ? before - before_that : before);
-    const int a2 = coarsest ? 0 : std::abs(before_that);
-    const int parents = std::abs(left) + std::abs(right);
-    const int neighbours = 2 * std::abs(beside) + std::abs(beside_that);
-    const std::uint32_t column_slot =
-        column < shape_.root ? u(column)
-        : column >= shape_.trajectories - shape_.direct
-            ? KnotContexts::columns - 1
-            : std::min<std::uint32_t>(root_slots + u(column - shape_.root),
-                                      KnotContexts::columns - 2);
-    const auto expected =
-        u(std::clamp(scales_.at(shape_, group.slot, column) - shape_.step_half_octaves + scale_bias,
-                     0, static_cast<int>(KnotContexts::scales) - 1));
-    base_[0] = expected * KnotContexts::slots + slot;
-    base_[1] = (slot * KnotContexts::magnitudes + bin(2 * a + a2)) * KnotContexts::magnitudes +
-               bin(parents);
-    base_[2] = (bin(neighbours) * KnotContexts::magnitudes + bin(a)) * KnotContexts::magnitudes +
-               bin(parents);
-    base_[3] =
-        expected / 2 * KnotContexts::fine_magnitudes + fine_bin(2 * a + a2 + parents + neighbours);
-    base_[4] = slot * KnotContexts::columns + column_slot;
-    const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
-    if constexpr (requires { io_.wanted(frame, column); }) {
-      knots_(frame, column) = predicted + chosen(io_.wanted(frame, column) - predicted);
-    }
-    // In unsigned arithmetic: a damaged stream may ask for any sum.
-    const auto residual = static_cast<std::int32_t>(
-        static_cast<std::uint32_t>(knots_(frame, column)) - static_cast<std::uint32_t>(predicted));
-    knots_(frame, column) =
-        static_cast<std::int32_t>(static_cast<std::uint32_t>(predicted) +
-                                  static_cast<std::uint32_t>(code_value(residual, signs)));
-  }
-
-  /// The root's place and direct channels stay where they are sooner than they go back to their
-  /// mean.
-  int prediction(Index before, int column) const {
-    const bool follows = column < shape_.root || column >= shape_.trajectories - shape_.direct;
-    return follows && before >= 0 ? knots_(before, column) : 0;
-  }
-
-  BitMixer::Contexts contexts_of(std::uint32_t decision) const {
-    BitMixer::Contexts contexts;
-    for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] = decision * KnotContexts::count[t] + base_[t];
-    }
-    contexts.weights = decision;
-    return contexts;
-  }
-
-  bool decide(std::uint32_t decision, bool bit) { return io_(contexts_of(decision), bit); }
-
-  /// The value near `wanted` that costs least, error and bits together.
-  int chosen(double wanted) {
-    const double size = std::abs(wanted);
-    const int nearest = static_cast<int>(std::lround(size));
-    if (nearest == 0 || nearest > unary_limit) return wanted < 0 ? -nearest : nearest;
-    constexpr double sign_bits = 1;
-    double above = 0;  // bits that say that the magnitude is more than those before
-    int best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (int magnitude = 0; magnitude <= nearest; ++magnitude) {
-      static_assert(is_more_than == is_not_zero + 1);
-      const auto decision = u(magnitude);
-      const double stop = io_.bits(contexts_of(decision), false);
-      const double error = size - magnitude;
-      const double cost =
-          error * error + io_.lambda * (above + stop + (magnitude > 0 ? sign_bits : 0));
-      if (cost < least) {
-        least = cost;
-        best = magnitude;
-      }
-      above += io_.bits(contexts_of(decision), true);
-    }
-    return wanted < 0 ? -best : best;
-  }
-
-  int code_value(int value, const int (&signs)[4]) {
-    int magnitude = std::abs(value);
-    if (!decide(is_not_zero, magnitude > 0)) return 0;
-    int known = 1;
-    while (known <= unary_limit && decide(is_more_than + u(known - 1), magnitude > known)) ++known;
-    if (known > unary_limit) known += code_rest(magnitude - known);
-    base_[1] = u(signs[0] * 27 + signs[1] * 9 + signs[2] * 3 + signs[3]);
-    base_[2] = u(signs[0] * 3 + signs[3]);
-    base_[3] = u(signs[1] * 3 + signs[2]);
-    base_[4] = u(signs[0]);
-    return decide(sign_is_negative, value < 0) ? -known : known;
-  }
-
-  static constexpr std::uint32_t u(int value) { return static_cast<std::uint32_t>(value); }
-
-  /// Numbers beyond the unary ones: how many bits, then the bits.
-  int code_rest(int rest) {
-    const std::uint32_t plus_one = static_cast<std::uint32_t>(rest) + 1;
-    std::uint32_t node = 1;
-    BitMixer::Contexts contexts;
-    for (std::uint32_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] =
-          decision_count * KnotContexts::count[t] + (KnotContexts::slots << end_slots);
-    }
-    contexts.weights = decision_count;
-    const auto width = static_cast<std::uint32_t>(std::bit_width(plus_one));
-    for (int b = exponent_bits - 1; b >= 0; --b) {
-      contexts.counter[0] =
-          decision_count * KnotContexts::count[0] + (KnotContexts::slots << end_slots) + node;
-      for (std::uint32_t t = 1; t < BitModelConstants::inputs; ++t) {
-        contexts.counter[t] = decision_count * KnotContexts::count[t];
-      }
-      node = node << 1 | io_(contexts, (width >> b & 1) != 0);
-    }
-    const std::uint32_t bits = node - (1u << exponent_bits);
-    const std::uint32_t coded =
-        bits == 0 ? 1 : (1u << (bits - 1)) | io_.plain(plus_one, static_cast<int>(bits) - 1);
-    return static_cast<int>((coded - 1) & 0x3fffffff);
-  }
-
-  Io io_;
-  const KnotScales& scales_;
-  const KnotShape& shape_;
-  QuantisedKnots& knots_;
-  std::array<std::uint32_t, BitModelConstants::inputs> base_{};
-};
-
-std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
-  std::array<std::size_t, BitModelConstants::inputs> sizes;
-  for (std::size_t t = 0; t < sizes.size(); ++t)
-    sizes[t] = decision_count * KnotContexts::count[t] + 1;
-  sizes[0] += (std::size_t{KnotContexts::slots} << end_slots) + (1u << exponent_bits);
-  return sizes;
-}
 
 /// Few decisions are made of a take: weights have to move fast, and one set serves all slots.
 constexpr Learning knot_learning = {30, 60, 65536 / 5};
@@ -240,7 +17,7 @@ constexpr Learning common_learning = {255, 6, 65536 / 5};
 
 const BitMixer& fresh_mixer() {
   static const BitMixer fresh = [] {
-    BitMixer mixer(table_sizes(), decision_count + 1, knot_learning);
+    BitMixer mixer(KnotWalkConstants::table_sizes(), decision_count + 1, knot_learning);
     start_knot_counters(mixer);
     return mixer;
   }();
@@ -268,20 +45,10 @@ void for_scales_of(CurveKind kind, int columns, Do&& do_one) {
 }
 
 /// Learns from what it chooses on the way.
-struct Chooser {
+struct Chooser : BitLearner {
   const Eigen::MatrixXd& knots;
   double lambda;
-  std::uint64_t& cost;
-  BitMixer& mixer;
-  bool operator()(const BitMixer::Contexts& contexts, bool bit) {
-    cost += mixer.learn(contexts, bit);
-    return bit;
-  }
-  std::uint32_t plain(std::uint32_t value, int count) {
-    cost += static_cast<std::uint64_t>(count) << 16;
-    return value & ((1u << count) - 1);
-  }
-  double wanted(Index frame, int column) const {
+  double wanted(Eigen::Index frame, int column) const {
     constexpr double most = 1 << 29;
     return std::clamp(knots(frame, column), -most, most);
   }
@@ -359,7 +126,7 @@ KnotModel::Choice KnotModel::choose(const KnotShape& shape, const Eigen::MatrixX
     return static_cast<std::int32_t>(value < 0 ? -size : size);
   });
   std::uint64_t bits = 0;
-  KnotWalk<Chooser>({knots, lambda, bits, mixer_}, scales_, shape, choice.knots).run();
+  KnotWalk<Chooser>({{bits, mixer_}, knots, lambda}, scales_, shape, choice.knots).run();
   choice.cost = (knots - choice.knots.cast<double>()).squaredNorm() / lambda +
                 static_cast<double>(bits) / 65536.0;
   return choice;
