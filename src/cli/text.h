@@ -10,7 +10,7 @@
 
 namespace reprise::cli {
 
-/// "999 B", "13.6 MB": decimal units, as file managers and SYSTEM figures use them.
+/// "999 B", "13.6 MB": decimal units, as file managers have them.
 std::string format_size(std::uint64_t bytes);
 /// "123.4:1"; "-" where one of them is 0.
 std::string format_ratio(std::uint64_t larger, std::uint64_t smaller);

@@ -40,11 +40,10 @@ std::vector<std::uint8_t> compress(ZSTD_CCtx* context, std::string_view text) {
 
 }  // namespace
 
-std::vector<std::uint8_t> compress_plain(std::string_view text, std::string_view prefix) {
+std::vector<std::uint8_t> compress_plain(std::string_view text) {
   const std::unique_ptr<ZSTD_CCtx, Free> context(ZSTD_createCCtx());
   if (!context) throw std::bad_alloc();
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
-  ZSTD_CCtx_refPrefix(context.get(), prefix.data(), prefix.size());
   return compress(context.get(), text);
 }
 
@@ -58,12 +57,10 @@ std::size_t rough_plain_size(std::string_view text) {
   return compress(context.get(), text).size();
 }
 
-std::string decompress_plain(std::span<const std::uint8_t> frame, std::string_view prefix,
-                             std::size_t most) {
+std::string decompress_plain(std::span<const std::uint8_t> frame, std::size_t most) {
   const std::unique_ptr<ZSTD_DCtx, Free> context(ZSTD_createDCtx());
   if (!context) throw std::bad_alloc();
   ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, most_window_log);
-  ZSTD_DCtx_refPrefix(context.get(), prefix.data(), prefix.size());
   std::string text;
   std::vector<char> piece(ZSTD_DStreamOutSize());
   ZSTD_inBuffer in{magic.data(), magic.size(), 0};

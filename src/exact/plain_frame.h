@@ -9,15 +9,13 @@
 
 namespace reprise {
 
-/// One frame of level 19 without magic number, size and checksum; `prefix` is needed again to
-/// decode it.
-std::vector<std::uint8_t> compress_plain(std::string_view text, std::string_view prefix);
+/// One frame of level 19 without magic number, size and checksum.
+std::vector<std::uint8_t> compress_plain(std::string_view text);
 
 /// At most about twice the size of such a frame, found much faster.
 std::size_t rough_plain_size(std::string_view text);
 
 /// Throws Error (damaged) for what is no frame, has bytes after it, or is larger than `most`.
-std::string decompress_plain(std::span<const std::uint8_t> frame, std::string_view prefix,
-                             std::size_t most);
+std::string decompress_plain(std::span<const std::uint8_t> frame, std::size_t most);
 
 }  // namespace reprise

@@ -100,7 +100,7 @@ std::optional<std::vector<std::uint8_t>> encode_numbers(std::string_view text,
   coding.bit(kinds.odd, false);
 
   std::vector<std::uint8_t> coded = {Mode::numbers};
-  const auto beside = compress_plain(text_beside_numbers(layout, table), {});
+  const auto beside = compress_plain(text_beside_numbers(layout, table));
   append_length(coded, beside.size());
   coded.insert(coded.end(), beside.begin(), beside.end());
   const auto bits = encoder.finish();
@@ -216,7 +216,7 @@ std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view kn
   }
   if (coded && coded->size() * 2 < rough_plain_size(rest)) return std::move(*coded);
   std::vector<std::uint8_t> plainly = {static_cast<std::uint8_t>(Mode::plain | flags)};
-  const auto frame = compress_plain(rest, {});
+  const auto frame = compress_plain(rest);
   plainly.insert(plainly.end(), frame.begin(), frame.end());
   if (coded && coded->size() < plainly.size()) return std::move(*coded);
   assert(decode_text(plainly, known_text) == text);
@@ -231,11 +231,11 @@ std::string decode_text(std::span<const std::uint8_t> coded, std::string_view kn
   if ((coded.front() & follows_known) != 0) text.append(known_text);
   std::span<const std::uint8_t> rest = coded.subspan(1);
   if (mode == Mode::plain) {
-    text.append(decompress_plain(rest, {}, most_text));
+    text.append(decompress_plain(rest, most_text));
   } else if (mode == Mode::numbers) {
     const std::size_t length = take_length(rest);
     if (length > rest.size()) throw_damaged("it ends too early");
-    const std::string beside = decompress_plain(rest.first(length), {}, most_text);
+    const std::string beside = decompress_plain(rest.first(length), most_text);
     NumbersDecoder(rest.subspan(length), beside, known_text).append_to(text);
   } else {
     throw_damaged("it is of no known kind");

@@ -1,7 +1,6 @@
 #include "ingest/virtual_markers.h"
 
 #include <cassert>
-#include <numbers>
 
 #include "reprise/model/kinematics.h"
 
@@ -9,15 +8,6 @@ namespace reprise {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d product_of_rotations(std::span<const RotationChannel> rotations,
-                              std::span<const double> channels) {
-  Matrix3d product = Matrix3d::Identity();
-  for (const RotationChannel& rotation : rotations) {
-    product *= axis_rotation(rotation.axis, channels[rotation.channel] * std::numbers::pi / 180.0);
-  }
-  return product;
-}
 
 void place_markers(const MarkerLayout& layout, std::span<const double> channels,
                    const Matrix3d& root, std::span<double> markers) {

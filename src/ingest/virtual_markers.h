@@ -19,8 +19,4 @@ using MarkerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen
 void place_markers(const MarkerLayout& layout, std::span<const double> channels,
                    const Eigen::Matrix3d& root, std::span<double> markers);
 
-/// Product of a joint's rotation channels.
-Eigen::Matrix3d product_of_rotations(std::span<const RotationChannel> rotations,
-                                     std::span<const double> channels);
-
 }  // namespace reprise

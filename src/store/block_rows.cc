@@ -16,8 +16,6 @@ constexpr std::size_t most_known_blocks = 16;
 /// Takes of blocks beyond this have ids that keys cannot lead to.
 constexpr std::int64_t most_block_id =
     (std::int64_t{1} << key_take_bits) / static_cast<std::int64_t>(TakeBlockLimits::takes) - 1;
-/// No block has more coded motion: one take of the largest kind on top of a full block.
-constexpr std::size_t most_layer = std::size_t{1} << 30;
 
 [[noreturn]] void throw_damaged(std::int64_t id) {
   throw Error(ErrorCode::damaged, "the archive is damaged: block " + std::to_string(id) +

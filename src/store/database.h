@@ -24,7 +24,6 @@ class Database {
   /// Runs statements that return nothing of interest.
   void run(const std::string& sql);
   std::int64_t last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
-  std::int64_t changes() const { return sqlite3_changes64(handle_.get()); }
   sqlite3* handle() const { return handle_.get(); }
   const std::filesystem::path& path() const { return path_; }
 

@@ -103,7 +103,8 @@ std::vector<TakeInfo> matching(const Database& database, const std::vector<TakeI
   return result;
 }
 
-bool is_in_folder(const TakeInfo& info, const std::string& tail) {
+/// Whether a take has this name, or one that ends in it after a slash.
+bool has_name_or_end(const TakeInfo& info, const std::string& tail) {
   return info.name == tail || info.name.ends_with("/" + tail);
 }
 
@@ -126,7 +127,7 @@ std::vector<TakeRecord> ArchiveStore::takes_named(const std::string& tail, bool 
     const StoredTake* stored = block ? block->find(id) : nullptr;
     if (stored == nullptr) throw_damaged("the index of names");
     const TakeInfo& info = stored->record.info;
-    if (whole ? info.name == tail : is_in_folder(info, tail))
+    if (whole ? info.name == tail : has_name_or_end(info, tail))
       records.push_back(whole_record(*impl_->database, *stored, known));
   }
   return records;
@@ -171,7 +172,7 @@ std::vector<TakeInfo> ArchiveStore::takes(const TakeFilter& filter) const {
   std::vector<TakeInfo> takes;
   const auto add_if_fitting = [&](const TakeRecord& record) {
     const TakeInfo& info = record.info;
-    if (!filter.take.empty() && !is_in_folder(info, filter.take)) return;
+    if (!filter.take.empty() && !has_name_or_end(info, filter.take)) return;
     if (!filter.subject.empty() && info.subject != filter.subject) return;
     if (filter.kind && !has_clip_of_kind(info.id, *filter.kind)) return;
     takes.push_back(info);

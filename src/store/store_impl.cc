@@ -40,10 +40,6 @@ std::pair<std::string, std::string> split_name(const std::string& name) {
   return {name.substr(0, slash), name.substr(slash + 1)};
 }
 
-std::string join_name(const std::string& folder, const std::string& leaf) {
-  return folder.empty() ? leaf : folder + "/" + leaf;
-}
-
 ShortDigest row_digest(const SkeletonRecord& record) {
   Hasher hasher;
   hasher.add_bytes(record.structure);

@@ -99,7 +99,6 @@ std::vector<StoredClip> stored_clips(std::int64_t take, std::span<const ClipReco
 
 /// "a/b/c" as folder "a/b" and leaf "c".
 std::pair<std::string, std::string> split_name(const std::string& name);
-std::string join_name(const std::string& folder, const std::string& leaf);
 
 /// Digests of rows (docs/format.md).
 ShortDigest row_digest(const SkeletonRecord& record);
