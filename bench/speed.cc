@@ -75,32 +75,31 @@ void report(benchmark::State& state, double seconds, double text_bytes) {
   state.SetLabel(tier_name(tier_of(state)));
 }
 
-void decode_every_take(benchmark::State& state) {
-  const Archive& archive = library().archive(tier_of(state));
-  const std::vector<TakeInfo> takes = archive.takes();
+void report(benchmark::State& state, const std::vector<TakeInfo>& takes) {
   double seconds = 0, bytes = 0;
   for (const TakeInfo& take : takes) {
     seconds += take.seconds();
     bytes += static_cast<double>(take.text_bytes);
   }
+  report(state, seconds, bytes);
+}
+
+void decode_every_take(benchmark::State& state) {
+  const Archive& archive = library().archive(tier_of(state));
+  const std::vector<TakeInfo> takes = archive.takes();
   for (auto _ : state) {
     for (const TakeInfo& take : takes) benchmark::DoNotOptimize(archive.extract(take));
   }
-  report(state, seconds, bytes);
+  report(state, takes);
 }
 
 void source_texts(benchmark::State& state) {
   const Archive& archive = library().archive(FidelityTier::exact);
   const std::vector<TakeInfo> takes = archive.takes();
-  double seconds = 0, bytes = 0;
-  for (const TakeInfo& take : takes) {
-    seconds += take.seconds();
-    bytes += static_cast<double>(take.text_bytes);
-  }
   for (auto _ : state) {
     for (const TakeInfo& take : takes) benchmark::DoNotOptimize(archive.source_text(take));
   }
-  report(state, seconds, bytes);
+  report(state, takes);
 }
 
 void extract_one_take_by_its_name(benchmark::State& state) {

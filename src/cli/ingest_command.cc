@@ -85,8 +85,8 @@ void IngestCommand::setup(CLI::App& app) {
   app.add_option_function<std::string>(
          "--fidelity", [this](const std::string& text) { tier_ = parse_tier(text); },
          "How faithful takes are stored: preview (mean error at most 20 mm), standard (the "
-         "default: "
-         "every joint in every frame within 10 mm), fine (within 1 mm) or exact (byte for byte)")
+         "default: every joint in every frame within 10 mm), fine (within 1 mm) or exact (byte for "
+         "byte)")
       ->type_name("TIER");
   add_number(app, "--bound-mm", bound_mm_, FidelityLimits::least_bound_mm,
              FidelityLimits::greatest_bound_mm,
@@ -104,10 +104,12 @@ void IngestCommand::setup(CLI::App& app) {
          "Put P/ in front of the names of this ingest")
       ->type_name("P");
   app.add_flag("--replace", options_.replace, "Replace takes that are there with other content");
-  app.add_flag("!--no-contacts", options_.contacts,
-               "Do not hold feet where they stand: for comparison; they slide more");
-  app.add_flag("!--no-repeats", options_.repeats,
-               "Look for no repeated motion: each take is one unique clip");
+  app.add_flag_callback(
+      "--no-contacts", [this] { options_.contacts = false; },
+      "Do not hold feet where they stand: for comparison; they slide more");
+  app.add_flag_callback(
+      "--no-repeats", [this] { options_.repeats = false; },
+      "Look for no repeated motion: each take is one unique clip");
   app.add_flag("--dry-run", options_.dry_run, "Say what would be done, and write nothing");
   add_examples(app, {"reprise ingest lib.rpz takes/",
                      "reprise ingest lib.rpz cmu/ --fps 120 --fidelity exact"});
