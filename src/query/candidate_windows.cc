@@ -161,7 +161,7 @@ CandidateWindows::CandidateWindows(std::vector<const PostureTrack*> tracks)
 
 std::vector<Neighbour> CandidateWindows::accepted_neighbours(
     std::span<const float> point, const std::vector<bool>& accept) const {
-  for (std::size_t asked = K::neighbours;; asked *= 2) {
+  for (std::size_t asked = K::neighbours;; asked *= 4) {
     std::vector<Neighbour> near = index_.nearest(point, asked);
     const bool last = near.size() < asked || asked >= K::most_neighbours_seen;
     std::erase_if(near, [&](const Neighbour& n) { return !accept[track_of_[n.point]]; });
