@@ -1,5 +1,5 @@
-// The archive: what a program that uses Reprise as a library needs. The command is built on this
-// alone.
+// The archive: what most programs that use Reprise as a library need. Search, plots and synthetic
+// takes have headers of their own.
 #pragma once
 
 #include <cstdint>

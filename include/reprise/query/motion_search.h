@@ -37,8 +37,8 @@ struct SearchResult {
   /// Mean distance of the body's joints along the best time alignment, heading and place taken out,
   /// on a body of one size.
   double distance_mm = 0;
-  /// What the order goes by, least first: postures without bearing, how often the motion goes back
-  /// and forth, and duration (in mm; docs/cli.md).
+  /// What the order goes by, least first: a third is the course of the motion, two thirds are mean
+  /// and deviation of its postures, bearing hardly counting (in mm; docs/cli.md).
   double unlikeness = 0;
 };
 
