@@ -9,9 +9,11 @@
 
 namespace reprise {
 
-/// The takes of one skeleton, in the same order as their postures.
+/// The takes of one skeleton, in the same order as their postures. People are of different sizes:
+/// all postures are brought to the median size, each by its own factor.
 struct SkeletonPostures {
   std::vector<TakeInfo> takes;
+  std::vector<float> factors;
   PostureLibrary library;
 };
 
@@ -20,5 +22,10 @@ struct SkeletonPostures {
 SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes,
                                const RootAxis& root, const RepeatConstants& constants,
                                const std::function<void(const TakeInfo&)>& tick);
+
+/// Mean joint distance (mm) of an occurrence to the reference that its map belongs to, both in
+/// their own sizes.
+float own_size_distance(const SkeletonPostures& postures, const Occurrence& reference,
+                        const Occurrence& occurrence);
 
 }  // namespace reprise

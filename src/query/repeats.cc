@@ -106,6 +106,9 @@ class RepeatsReader {
     for (const Occurrence& occurrence : group.occurrences) {
       MotionOccurrence told = describe(postures.takes[occurrence.take], occurrence);
       const bool reference = motion.occurrences.empty();
+      if (!reference) {
+        told.distance_mm = own_size_distance(postures, group.occurrences[0], occurrence);
+      }
       if (reference && query_.frames) {
         told.start = static_cast<double>(query_.frames->begin) / query_.take->frame_rate;
         told.end = static_cast<double>(query_.frames->end) / query_.take->frame_rate;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "ingest/root_alignment.h"
 #include "reprise/model/kinematics.h"
@@ -70,6 +71,36 @@ PostureMatrix aligned_postures(const Take& take, const RootAxis& root, double ra
     }
   }
   return postures;
+}
+
+double body_size(const Take& take, const RootAxis& root) {
+  if (take.frames() == 0) return 0;
+  const Skeleton& skeleton = *take.skeleton;
+  std::vector<JointFrame> joints(skeleton.joints.size());
+  forward_kinematics(
+      skeleton, {take.channels.row(0).data(), static_cast<std::size_t>(skeleton.channel_count)},
+      joints);
+  double size = 0;
+  for (const std::size_t joint : joints_under(skeleton, root.joint)) {
+    if (static_cast<int>(joint) == root.joint) continue;
+    const auto parent = static_cast<std::size_t>(skeleton.joints[joint].parent);
+    size += (joints[joint].position - joints[parent].position).norm();
+  }
+  return size;
+}
+
+std::vector<float> factors_to_median_size(std::span<const double> sizes) {
+  std::vector<float> factors(sizes.size(), 1.0F);
+  const auto is_known = [](double size) { return std::isfinite(size) && size > 0; };
+  std::vector<double> known;
+  std::ranges::copy_if(sizes, std::back_inserter(known), is_known);
+  if (known.empty()) return factors;
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::ranges::nth_element(known, middle);
+  for (std::size_t take = 0; take < sizes.size(); ++take) {
+    if (is_known(sizes[take])) factors[take] = static_cast<float>(*middle / sizes[take]);
+  }
+  return factors;
 }
 
 PostureBasis::PostureBasis(std::span<const PostureMatrix> takes, int axes) {

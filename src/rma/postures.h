@@ -26,6 +26,14 @@ struct RootAxis {
 /// linear interpolation. A take without frames has no samples.
 PostureMatrix aligned_postures(const Take& take, const RootAxis& root, double rate);
 
+/// The length of all bones under the root joint together (mm), in the first frame; 0 where there
+/// are none.
+double body_size(const Take& take, const RootAxis& root);
+
+/// What to multiply the postures of bodies with to bring each to the median size. 1 for sizes that
+/// are not positive.
+std::vector<float> factors_to_median_size(std::span<const double> sizes);
+
 /// The leading axes of many postures. A distance of two projected postures is close to the root
 /// mean square distance of their joints in mm, and never larger.
 class PostureBasis {

@@ -54,6 +54,21 @@ TEST(AlignedPostures, OtherRatesLieBetweenFrames) {
   EXPECT_EQ(aligned_postures(take, {0, 1}, 5).rows(), 2);
 }
 
+TEST(BodySize, IsTheLengthOfAllBonesUnderTheRoot) {
+  const Take take =
+      take_with("5 90 7 0 0 0 10 20 30\n0 0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0 0\n");
+  EXPECT_NEAR(body_size(take, {0, 1}), 10 * (std::hypot(10, 20) + 30), 0.01);
+  EXPECT_NEAR(body_size(take, {1, 1}), 300, 0.01);
+}
+
+TEST(BodySize, FactorsBringAllToTheMedian) {
+  const std::vector<double> sizes{500, 1000, 2000};
+  EXPECT_EQ(factors_to_median_size(sizes), (std::vector<float>{2, 1, 0.5F}));
+  const std::vector<double> one_unknown{0, 1000, 1000};
+  EXPECT_EQ(factors_to_median_size(one_unknown), (std::vector<float>{1, 1, 1}));
+  EXPECT_TRUE(factors_to_median_size({}).empty());
+}
+
 TEST(PostureBasis, ProjectedDistancesAreNeverLarger) {
   const std::vector<PostureMatrix> takes{made_up_take(1, 0, 5), made_up_take(2, 0, 5)};
   const PostureBasis few(takes, 3), all(takes, 12);
