@@ -178,6 +178,8 @@ struct RejectedInput {
 struct IngestReport {
   std::vector<std::string> added;
   std::vector<std::string> skipped;
+  std::vector<std::string>
+      other_fidelity;  ///< of `skipped`: stored with another than was asked for
   std::vector<RejectedInput> rejected;
   double seconds = 0;
 };

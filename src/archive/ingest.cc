@@ -61,6 +61,7 @@ class Ingest {
       : archive_(archive), options_(options), progress_(progress) {}
 
   IngestReport run() {
+    if (options_.read.asf) read_whole_file(*options_.read.asf);
     if (options_.metadata) metadata_ = MetadataTable::read(*options_.metadata);
     InputFiles inputs = find_input_files(options_.paths, options_.prefix);
     report_.rejected = std::move(inputs.rejected);
@@ -133,6 +134,7 @@ class Ingest {
                                stored->info.fidelity.limit_mm == options_.fidelity.limit_mm;
     if (same_source && (same_fidelity || !options_.replace)) {
       surveyed.skipped = true;
+      if (!same_fidelity) report_.other_fidelity.push_back(file.name);
     } else if (options_.replace) {
       surveyed.replaces = true;
     } else {

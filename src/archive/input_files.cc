@@ -18,8 +18,21 @@ std::string folder_name(const fs::path& file) {
   return full.parent_path().filename().generic_string();
 }
 
+/// Why what a folder holds under this name cannot be taken in; empty where it can, or is not meant.
+std::string hindrance(const fs::directory_entry& entry) {
+  std::error_code error;
+  if (entry.is_symlink(error)) {
+    const bool lost = is_motion_file(entry.path()) && !entry.exists(error);
+    return lost ? "the link leads to no file" : "";
+  }
+  if (!entry.is_directory(error)) return "";
+  const fs::directory_iterator probe(entry.path(), error);
+  return error ? "the folder cannot be read: " + error.message() : "";
+}
+
 /// The files of one argument, with their paths under it.
-std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path) {
+std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
+                                                       std::vector<RejectedInput>& rejected) {
   std::vector<std::pair<fs::path, fs::path>> found;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -30,11 +43,18 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path) {
     found.emplace_back(path, path.filename());
     return found;
   }
+  const fs::directory_iterator probe(path, error);
+  if (error) {
+    throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
+                {path.string()});
+  }
   fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied,
                                          error);
   if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
   for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
+    const std::string why = hindrance(*entry);
+    if (!why.empty()) rejected.push_back({entry->path().string(), 0, why});
     std::error_code ignored;
     if (entry->is_regular_file(ignored) && is_motion_file(entry->path())) {
       found.emplace_back(entry->path(), entry->path().lexically_relative(path));
@@ -55,7 +75,7 @@ InputFiles find_input_files(const std::vector<fs::path>& paths, const std::strin
   std::map<std::string, std::vector<std::pair<fs::path, fs::path>>> by_name;
   std::set<fs::path> seen;
   for (const fs::path& argument : paths) {
-    for (auto& [path, relative] : files_under(argument)) {
+    for (auto& [path, relative] : files_under(argument, result.rejected)) {
       std::error_code ignored;
       const fs::path full = fs::weakly_canonical(path, ignored);
       if (!seen.insert(full.empty() ? path : full).second) continue;
@@ -64,10 +84,12 @@ InputFiles find_input_files(const std::vector<fs::path>& paths, const std::strin
   }
   for (auto& [name, files] : by_name) {
     std::sort(files.begin(), files.end());
+    std::set<fs::path> spellings;
+    for (const auto& [path, relative] : files) spellings.insert(relative);
     std::set<std::string> used;
     for (const auto& [path, relative] : files) {
       // x.bvh beside x.amc: the extension tells them apart.
-      std::string own = files.size() == 1 ? name : relative.generic_string();
+      std::string own = spellings.size() == 1 ? name : relative.generic_string();
       if (!prefix.empty()) own = prefix + "/" + own;
       if (!used.insert(own).second) {
         result.rejected.push_back({path.string(), 0,

@@ -173,10 +173,16 @@ std::vector<ClipInfo> clips_of(const Archive& archive, const TakeInfo& take) {
 
 void InfoCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
-  app.add_option("ID", id_, "A take or a clip; without it, the archive")->type_name("");
+  id_given_ = app.add_option("ID", id_, "A take or a clip; without it, the archive");
+  id_given_->type_name("");
   add_path(app, "--joint-map", joint_map_,
            "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
   add_examples(app, {"reprise info lib.rpz", "reprise info lib.rpz walk_01"});
+}
+
+void InfoCommand::check() {
+  // An empty variable of a script is no question for the whole archive.
+  if (id_given_->count() > 0 && id_.empty()) throw Error(ErrorCode::usage, "ID is empty");
 }
 
 ExitCode InfoCommand::run(Console& console) {

@@ -43,7 +43,9 @@ std::string summary(const IngestReport& report, const ArchiveStats& stats, bool 
   table.add(
       {dry_run ? "would add" : "added",
        fmt::format("{} in {:.1f} s", format_count(report.added.size(), "take"), report.seconds)});
-  table.add({"skipped", format_count(report.skipped.size(), "take") + " that were there already"});
+  table.add({"skipped", format_count(report.skipped.size(), "take") +
+                            (report.skipped.size() == 1 ? " that was there already"
+                                                        : " that were there already")});
   table.add({"rejected", format_count(report.rejected.size(), "input")});
   if (stats.takes > 0) {
     table.add(
@@ -65,6 +67,7 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
   }
   return {{"added", report.added},
           {"skipped", report.skipped},
+          {"other_fidelity", report.other_fidelity},
           {"rejected", rejected},
           {"seconds", report.seconds},
           {"stats", to_json(stats)}};
@@ -103,7 +106,8 @@ void IngestCommand::setup(CLI::App& app) {
          "--prefix", [this](const std::string& text) { options_.prefix = checked_prefix(text); },
          "Put P/ in front of the names of this ingest")
       ->type_name("P");
-  app.add_flag("--replace", options_.replace, "Replace takes that are there with other content");
+  app.add_flag("--replace", options_.replace,
+               "Replace takes that are there with other content or another fidelity");
   app.add_flag_callback(
       "--no-contacts", [this] { options_.contacts = false; },
       "Do not hold feet where they stand: for comparison; they slide more");
@@ -151,6 +155,15 @@ ExitCode IngestCommand::run(Console& console) {
   for (const std::string& name : report.added) console.detail("added " + printable(name));
   for (const std::string& name : report.skipped) console.detail("skipped " + printable(name));
   for (const RejectedInput& input : report.rejected) console.complaint(rejection_line(input));
+  if (!report.other_fidelity.empty()) {
+    console.message(
+        fmt::format("{} stored with another fidelity than asked for, and kept so; "
+                    "--replace stores anew",
+                    format_count(report.other_fidelity.size(), "take")));
+  }
+  if (report.added.size() + report.skipped.size() + report.rejected.size() == 0) {
+    console.message("no BVH or AMC file was found; links to folders are not followed");
+  }
   const ArchiveStats stats = stats_of(archive_);
   if (!console.quiet()) console.result(summary(report, stats, options_.dry_run));
   console.document(document_of(report, stats));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -115,7 +116,8 @@ class TemporaryFile {
     const int descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) {
       throw Error(errno == ENOSPC ? ErrorCode::limit : ErrorCode::failed,
-                  "the archive cannot be opened for writing", {beside.string()});
+                  std::string("the archive cannot be opened for writing: ") + std::strerror(errno),
+                  {beside.string()});
     }
     ::close(descriptor);
   }
@@ -183,6 +185,7 @@ ArchiveStore ArchiveStore::open_for_writing(const fs::path& path) {
   impl->lock.emplace(path, created);
   impl->database.emplace(path, Database::Mode::write);
   impl->writing = true;
+  check_header(*impl->database);
   impl->database->run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL;");
   // A read first: it takes back what a writer that died had not finished.
   Statement(*impl->database, "SELECT count(*) FROM sqlite_schema").step();

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 
 namespace reprise {
 
@@ -15,7 +16,8 @@ WriterLock::WriterLock(const std::filesystem::path& path, bool created)
     : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CLOEXEC)), created_(created) {
   if (descriptor_ < 0) {
     throw Error(errno == ENOSPC ? ErrorCode::limit : ErrorCode::failed,
-                "the archive cannot be opened for writing", {path.string()});
+                std::string("the archive cannot be opened for writing: ") + std::strerror(errno),
+                {path.string()});
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor_);

@@ -63,5 +63,49 @@ TEST_F(MistakesTest, WhatIsWrongWithASourceIsNoDamageOfTheArchive) {
   }
 }
 
+TEST_F(MistakesTest, WhatAnIngestLeavesOutIsTold) {
+  output({"synth", "one", "--takes", "1", "--seconds", "2", "--subjects", "1"});
+  output({"ingest", "lib.rpz", "one", "--fidelity", "preview"});
+  const Outcome again = reprise({"ingest", "lib.rpz", "one"});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.err.find("1 take stored with another fidelity"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("--replace"), std::string::npos) << again.err;
+  EXPECT_EQ(document({"ingest", "lib.rpz", "one"}).at("other_fidelity").size(), 1U);
+  EXPECT_EQ(reprise({"ingest", "lib.rpz", "one", "--fidelity", "preview"}).err, "");
+
+  fs::create_directory(folder() / "empty");
+  EXPECT_NE(reprise({"ingest", "lib.rpz", "empty"}).err.find("no BVH or AMC"), std::string::npos);
+  fs::create_symlink("nowhere.bvh", folder() / "empty" / "lost.bvh");
+  const Outcome lost = reprise({"ingest", "lib.rpz", "empty"});
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_EQ(lost.err.rfind("empty/lost.bvh: ", 0), 0U) << lost.err;
+}
+
+TEST_F(MistakesTest, TwoFilesOfOneNameDoNotChangeIt) {
+  output({"synth", "a", "--takes", "1", "--seconds", "2", "--subjects", "1"});
+  output({"synth", "b", "--takes", "1", "--seconds", "2", "--subjects", "1", "--seed", "2"});
+  const nlohmann::json report =
+      document({"ingest", "lib.rpz", "a", "b", "--fidelity", "preview"}, 3);
+  ASSERT_EQ(report.at("added").size(), 1U);
+  EXPECT_EQ(report.at("added")[0], "s01/s01_01");
+  EXPECT_EQ(report.at("rejected").size(), 1U);
+}
+
+TEST_F(MistakesTest, AWrongFileForAnArgumentIsNamedBeforeAnythingIsStored) {
+  output({"synth", "one", "--takes", "1", "--seconds", "2", "--subjects", "1"});
+  const auto refused = [&](const std::vector<std::string>& words, int code, const char* said) {
+    const Outcome outcome = reprise(words);
+    EXPECT_EQ(outcome.exit_code, code) << outcome.err;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  };
+  refused({"ingest", "lib.rpz", "one", "--asf", "none.asf"}, 1, "none.asf: ");
+  refused({"ingest", "lib.rpz", "one", "--metadata", "none.csv"}, 1, "none.csv: ");
+  refused({"ingest", "none/lib.rpz", "one"}, 1, "No such file");
+  refused({"ingest", "one", "one"}, 1, "directory");
+  refused({"ingest", "one/s01/s01_01.bvh", "one"}, 4, "not a Reprise archive");
+  refused({"info", "lib.rpz", ""}, 2, "ID is empty");
+  EXPECT_FALSE(fs::exists(folder() / "lib.rpz"));
+}
+
 }  // namespace
 }  // namespace reprise::cli
