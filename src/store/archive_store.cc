@@ -186,7 +186,9 @@ ArchiveStore ArchiveStore::open_for_writing(const fs::path& path) {
   impl->database.emplace(path, Database::Mode::write);
   impl->writing = true;
   check_header(*impl->database);
-  impl->database->run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL;");
+  // Pages are not written before a commit, which alone waits for readers.
+  impl->database->run(
+      "PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL; PRAGMA cache_spill=OFF;");
   // A read first: it takes back what a writer that died had not finished.
   Statement(*impl->database, "SELECT count(*) FROM sqlite_schema").step();
   check_identity(*impl->database);
@@ -204,7 +206,9 @@ void ArchiveStore::commit() {
   try {
     impl_->flush();
     impl_->remove_vacated();
+    impl_->database->wait_for_locks(LockWaits::commit_ms);
     impl_->database->run("COMMIT");
+    impl_->database->wait_for_locks(LockWaits::writer_ms);
   } catch (...) {
     impl_->broken = true;
     roll_back();
@@ -224,7 +228,11 @@ void ArchiveStore::roll_back() {
   if (sqlite3_get_autocommit(impl_->database->handle()) == 0) impl_->database->run("ROLLBACK");
 }
 
-void ArchiveStore::compact() { impl_->database->run("VACUUM"); }
+void ArchiveStore::compact() {
+  impl_->database->wait_for_locks(LockWaits::commit_ms);
+  impl_->database->run("VACUUM");
+  impl_->database->wait_for_locks(LockWaits::writer_ms);
+}
 
 ArchiveStore::Snapshot ArchiveStore::snapshot() const {
   if (impl_->in_transaction) return nullptr;

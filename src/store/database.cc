@@ -5,8 +5,6 @@
 namespace reprise {
 namespace {
 
-/// How long a reader waits for a writer's commit, and a commit for readers (ms).
-constexpr int busy_timeout_ms = 60000;
 /// No row of ours is larger (bytes): what a hostile file may make SQLite allocate.
 constexpr int most_row_bytes = 1 << 30;
 
@@ -59,13 +57,17 @@ Database::Database(const std::filesystem::path& path, Mode mode) : path_(path) {
       path.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, page_checksum_vfs());
   handle_.reset(raw);
   if (result != SQLITE_OK) fail(result);
-  sqlite3_busy_timeout(raw, busy_timeout_ms);
+  wait_for_locks(mode == Mode::read ? LockWaits::reader_ms : LockWaits::writer_ms);
   // What SQLite's own documentation advises for files from anywhere.
   sqlite3_db_config(raw, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, most_row_bytes);
   run("PRAGMA cell_size_check=ON; PRAGMA mmap_size=0; PRAGMA foreign_keys=ON; PRAGMA "
       "temp_store=MEMORY;");
+}
+
+void Database::wait_for_locks(int milliseconds) {
+  sqlite3_busy_timeout(handle_.get(), milliseconds);
 }
 
 void Database::run(const std::string& sql) {

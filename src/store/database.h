@@ -16,11 +16,18 @@
 
 namespace reprise {
 
+/// How long is waited for other processes (ms): a reader for a commit; a writer, which our own
+/// writers have let in before, for whoever else has locked the file; and a commit for readers.
+struct LockWaits {
+  static constexpr int reader_ms = 60000, writer_ms = 2000, commit_ms = 60000;
+};
+
 class Database {
  public:
   enum class Mode { read, write };
   Database(const std::filesystem::path& path, Mode mode);
 
+  void wait_for_locks(int milliseconds);
   /// Runs statements that return nothing of interest.
   void run(const std::string& sql);
   std::int64_t last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
