@@ -1,6 +1,5 @@
 #include "contacts/leg_chain.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -14,12 +13,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
-constexpr int most_angles = LegChainConstants::most_angles;
-
-using AngleVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_angles, 1>;
-using AngleMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_angles, most_angles>;
-using JacobianMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_angles>;
+constexpr std::size_t most_angles = LegChainConstants::most_angles;
 
 /// Indices of the joints on the way from the root to a leg's points, in file order.
 std::vector<int> joints_on_the_way(const Skeleton& skeleton, const std::vector<int>& points) {
@@ -49,14 +43,23 @@ LegChain::LegChain(const Skeleton& skeleton, const Leg& leg, const std::vector<b
     int& parent = chain_.joints.back().parent;
     if (parent >= 0) parent = static_cast<int>(chain_index(parent));
   }
+  for (const Joint& joint : chain_.joints) {
+    first_axis_.push_back(axes_.size());
+    axes_.resize(axes_.size() + joint.rotation_order.size());
+  }
+  frames_.resize(chain_.joints.size());
   for (const int joint : point_joints_) point_index_.push_back(chain_index(joint));
   for (const int j : leg.joints) {
     const Joint& joint = skeleton.joints[static_cast<std::size_t>(j)];
     for (std::size_t k = 0; k < joint.rotation_order.size(); ++k) {
       const int channel = joint.first_channel + joint.rotation_slots[k];
       if (!moves[static_cast<std::size_t>(channel)]) continue;
-      if (angles_.size() < static_cast<std::size_t>(most_angles)) {
-        angles_.push_back({chain_index(j), static_cast<int>(k), channel});
+      if (angles_.size() < most_angles) {
+        const std::size_t at = chain_index(j);
+        // A bone of an ASF skeleton turns about its parent's point.
+        const bool about_itself = chain_.format == MotionFormat::bvh || joint.parent < 0;
+        const int centre = about_itself ? static_cast<int>(at) : chain_.joints[at].parent;
+        angles_.push_back({at, first_axis_[at] + k, channel, centre});
       }
     }
   }
@@ -69,9 +72,6 @@ LegChain::LegChain(const Skeleton& skeleton, const Leg& leg, const std::vector<b
       turned[j] = j == angle.joint || (parent >= 0 && turned[static_cast<std::size_t>(parent)]);
     }
   }
-  frames_.resize(chain_.joints.size());
-  axes_.resize(angles_.size());
-  centres_.resize(angles_.size());
 }
 
 std::size_t LegChain::chain_index(int joint) const {
@@ -80,75 +80,65 @@ std::size_t LegChain::chain_index(int joint) const {
   return static_cast<std::size_t>(at - chain_joint_.begin());
 }
 
+void LegChain::place_joints(std::size_t first, std::span<const double> channels) {
+  const JointFrame world;
+  for (std::size_t j = first; j < frames_.size(); ++j) {
+    const Joint& joint = chain_.joints[j];
+    const JointFrame& parent =
+        joint.parent < 0 ? world : frames_[static_cast<std::size_t>(joint.parent)];
+    const auto axes = std::span(axes_).subspan(first_axis_[j], joint.rotation_order.size());
+    frames_[j] = place_joint(chain_, joint, channels, parent, axes);
+  }
+}
+
 void LegChain::place(std::span<const double> channels, std::span<Vector3d> places) {
-  forward_kinematics(chain_, channels, frames_);
+  place_joints(0, channels);
   for (std::size_t p = 0; p < point_index_.size(); ++p) {
     places[p] = frames_[point_index_[p]].position;
   }
 }
 
-void LegChain::find_axes(std::span<const double> channels) {
-  const bool about_itself = chain_.format == MotionFormat::bvh;
+double LegChain::pull(const JointGoal& goal, NormalEquations& turns) const {
+  const std::size_t joint = chain_index(goal.joint);
+  const Vector3d way = goal.place - frames_[joint].position;
+  std::array<std::size_t, most_angles> turning{};
+  std::array<Vector3d, most_angles> moves;
+  std::size_t count = 0;
   for (std::size_t a = 0; a < angles_.size(); ++a) {
-    const Angle& angle = angles_[a];
-    const Joint& joint = chain_.joints[angle.joint];
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    Vector3d parent_place = Vector3d::Zero();
-    if (joint.parent >= 0) {
-      const JointFrame& parent = frames_[static_cast<std::size_t>(joint.parent)];
-      axes = parent.rotation;
-      parent_place = parent.position;
-    }
-    axes *= joint.axis;
-    for (int k = 0; k < angle.rotation; ++k) {
-      const auto slot = static_cast<std::size_t>(joint.rotation_slots[static_cast<std::size_t>(k)]);
-      const double degrees = channels[static_cast<std::size_t>(joint.first_channel) + slot];
-      axes *= axis_rotation(joint.rotation_order[static_cast<std::size_t>(k)],
-                            degrees / degrees_per_radian);
-    }
-    axes_[a] = axes.col(joint.rotation_order[static_cast<std::size_t>(angle.rotation)]);
-    // A bone of an ASF skeleton turns about its parent's point.
-    centres_[a] = about_itself ? frames_[angle.joint].position : parent_place;
+    if (!turns_[a][joint]) continue;
+    const Vector3d arm =
+        frames_[joint].position - frames_[static_cast<std::size_t>(angles_[a].centre)].position;
+    moves[count] = axes_[angles_[a].axis].cross(arm);
+    turning[count++] = a;
   }
+  turns.add<Vector3d>(std::span(turning).first(count), std::span(moves).first(count), goal.weight,
+                      way);
+  return goal.weight * way.squaredNorm();
 }
 
 void LegChain::reach(std::span<double> channels, std::span<const JointGoal> goals) {
-  const auto count = static_cast<Eigen::Index>(angles_.size());
   constexpr double stiffness = LegChainConstants::stiffness_mm * LegChainConstants::stiffness_mm;
-  AngleVector turned = AngleVector::Zero(count);
-  std::array<double, most_angles> start{};
+  std::array<double, most_angles> start{}, turned{};
   for (std::size_t a = 0; a < angles_.size(); ++a) {
     start[a] = channels[static_cast<std::size_t>(angles_[a].channel)];
   }
-  forward_kinematics(chain_, channels, frames_);
+  place_joints(0, channels);
   for (int round = 0; round < LegChainConstants::rounds; ++round) {
-    if (round > 0) forward_kinematics_from(chain_, first_turning_, channels, frames_);
-    find_axes(channels);
+    if (round > 0) place_joints(first_turning_, channels);
     // Least |J d - missing|^2 + stiffness |turned + d|^2: the pull back is to where the angles
     // began, so that nothing depends on the way there.
-    AngleMatrix normal = stiffness * AngleMatrix::Identity(count, count);
-    AngleVector right = -stiffness * turned;
+    NormalEquations turns(angles_.size());
     double missing = 0;
-    for (const JointGoal& goal : goals) {
-      const std::size_t joint = chain_index(goal.joint);
-      const Vector3d way = goal.place - frames_[joint].position;
-      JacobianMatrix jacobian = JacobianMatrix::Zero(3, count);
-      for (Eigen::Index a = 0; a < count; ++a) {
-        const auto at = static_cast<std::size_t>(a);
-        if (turns_[at][joint]) {
-          jacobian.col(a) = axes_[at].cross(frames_[joint].position - centres_[at]);
-        }
-      }
-      const JacobianMatrix weighted = goal.weight * jacobian;
-      normal.noalias() += weighted.transpose() * jacobian;
-      right.noalias() += weighted.transpose() * way;
-      missing += goal.weight * way.squaredNorm();
-    }
-    normal.diagonal().array() += LegChainConstants::caution * missing;
-    turned += normal.llt().solve(right);
+    for (const JointGoal& goal : goals) missing += pull(goal, turns);
     for (std::size_t a = 0; a < angles_.size(); ++a) {
+      turns.add(a, stiffness, -turned[a]);
+      turns.add(a, LegChainConstants::caution * missing, 0);
+    }
+    const std::array<double, most_angles> solution = turns.solve();
+    for (std::size_t a = 0; a < angles_.size(); ++a) {
+      turned[a] += solution[a];
       channels[static_cast<std::size_t>(angles_[a].channel)] =
-          start[a] + degrees_per_radian * turned[static_cast<Eigen::Index>(a)];
+          start[a] + degrees_per_radian * turned[a];
     }
   }
 }

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "contacts/legs.h"
+#include "contacts/normal_equations.h"
 #include "reprise/model/kinematics.h"
 
 namespace reprise {
 
 struct LegChainConstants {
   /// Bounds the size of the systems that are solved; further channels keep their angles.
-  static constexpr int most_angles = 16;
+  static constexpr std::size_t most_angles = NormalEquations::most_unknowns;
   /// How far the foot has to move (mm) to be worth a radian: small enough not to hold the foot back
   /// (a leg's own is 200 to 900), large enough for a stretched leg to bend smoothly.
   static constexpr double stiffness_mm = 12;
@@ -49,11 +50,16 @@ class LegChain {
  private:
   struct Angle {
     std::size_t joint = 0;  // index in chain_
-    int rotation = 0;       // index in its rotation_order
+    std::size_t axis = 0;   // index in axes_
     int channel = 0;        // index in a frame
+    int centre = 0;         // index in chain_ of the joint whose place it turns about
   };
 
-  void find_axes(std::span<const double> channels);
+  /// Fills frames_ and axes_ from joint `first` of chain_ on.
+  void place_joints(std::size_t first, std::span<const double> channels);
+  /// Adds the turns of the angles that would bring a joint to its goal; returns the weighted square
+  /// of how far it is from there.
+  double pull(const JointGoal& goal, NormalEquations& turns) const;
   std::size_t chain_index(int joint) const;
 
   Skeleton chain_;                // the joints from the root to the leg's points
@@ -63,8 +69,9 @@ class LegChain {
   std::vector<int> point_joints_;
   std::vector<std::size_t> point_index_;  // of each of them: its index in chain_
   std::vector<std::vector<bool>> turns_;  // of each angle and each joint of chain_
+  std::vector<std::size_t> first_axis_;   // of each joint of chain_: index in axes_
   std::vector<JointFrame> frames_;
-  std::vector<Eigen::Vector3d> axes_, centres_;  // of each angle, in the world
+  std::vector<Eigen::Vector3d> axes_;  // of each rotation of the joints of chain_, in the world
 };
 
 }  // namespace reprise

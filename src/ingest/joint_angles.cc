@@ -23,6 +23,8 @@ constexpr int most_sweeps = 4;
 constexpr double sweep_tolerance = 1e-7;
 
 double next_to(double angle, double previous) {
+  // Most frames move by less than half a turn, and rounding is slow.
+  if (std::abs(previous - angle) < 3) return angle;
   return angle + 2 * pi * std::round((previous - angle) / (2 * pi));
 }
 
@@ -72,14 +74,14 @@ Matrix3d basis(const Vector3d& first, const Vector3d& second) {
   constexpr double too_short = 1e-9;
   Matrix3d result;
   const double length = first.norm();
-  result.col(0) = length > too_short ? Vector3d(first / length) : Vector3d::UnitX();
+  result.col(0) = length > too_short ? Vector3d((1 / length) * first) : Vector3d::UnitX();
   Vector3d rest = second - second.dot(result.col(0)) * result.col(0);
   double rest_length = rest.norm();
   if (rest_length <= too_short) {
     rest = result.col(0).unitOrthogonal();
     rest_length = 1;
   }
-  result.col(1) = rest / rest_length;
+  result.col(1) = (1 / rest_length) * rest;
   result.col(2) = result.col(0).cross(result.col(1));
   return result;
 }
@@ -182,7 +184,8 @@ std::array<EulerAngles, 2> euler_angles(const Matrix3d& rotation, const std::arr
   const auto [i, j, k] = axes;
   const double sign = (i + 1) % 3 == j ? 1 : -1;
   const double sine = std::clamp(sign * rotation(i, k), -1.0, 1.0);
-  const double cosine = std::hypot(rotation(i, i), rotation(i, j));
+  const double cosine =
+      std::sqrt(rotation(i, i) * rotation(i, i) + rotation(i, j) * rotation(i, j));
   EulerAngles one;
   one[1] = std::atan2(sine, cosine);
   if (cosine < gimbal_lock_cosine) {

@@ -38,30 +38,6 @@ double stretch(const Joint& joint, std::span<const double> channels) {
   return 0;
 }
 
-JointFrame place_joint(const Skeleton& skeleton, const Joint& joint,
-                       std::span<const double> channels, const JointFrame& parent) {
-  JointFrame frame;
-  frame.rotation = parent.rotation;
-  const double scale = skeleton.millimetres_per_unit;
-  if (skeleton.format == MotionFormat::bvh) {
-    if (!joint.rotation_order.empty()) frame.rotation *= local_rotation(joint, channels);
-    frame.position =
-        parent.position + scale * (parent.rotation * translation(joint, channels, joint.offset));
-    return frame;
-  }
-  const Matrix3d own_axes = parent.rotation * joint.axis;
-  if (!joint.rotation_order.empty()) {
-    frame.rotation = own_axes * local_rotation(joint, channels) * joint.axis.transpose();
-  }
-  const Vector3d moved = own_axes * translation(joint, channels, Vector3d::Zero());
-  Vector3d bone = joint.offset;
-  const double longer = stretch(joint, channels);
-  if (longer != 0 && bone.norm() > 0) bone += longer * bone.normalized();
-  frame.position = parent.position +
-                   scale * (moved + (joint.parent < 0 ? bone : Vector3d(frame.rotation * bone)));
-  return frame;
-}
-
 }  // namespace
 
 Matrix3d axis_rotation(int axis, double radians) {
@@ -79,17 +55,42 @@ Matrix3d local_rotation(const Joint& joint, std::span<const double> channels) {
   return rotation;
 }
 
-void forward_kinematics(const Skeleton& skeleton, std::span<const double> channels,
-                        std::span<JointFrame> joints) {
-  forward_kinematics_from(skeleton, 0, channels, joints);
+JointFrame place_joint(const Skeleton& skeleton, const Joint& joint,
+                       std::span<const double> channels, const JointFrame& parent,
+                       std::span<Vector3d> axes) {
+  const bool bvh = skeleton.format == MotionFormat::bvh;
+  const double scale = skeleton.millimetres_per_unit;
+  const Matrix3d own_axes = bvh ? parent.rotation : Matrix3d(parent.rotation * joint.axis);
+  JointFrame frame;
+  frame.rotation = own_axes;
+  for (std::size_t k = 0; k < joint.rotation_order.size(); ++k) {
+    const int axis = joint.rotation_order[k];
+    if (!axes.empty()) axes[k] = frame.rotation.col(axis);
+    const double degrees = channels[joint.first_channel + joint.rotation_slots[k]];
+    turn(frame.rotation, axis, degrees * std::numbers::pi / 180.0);
+  }
+  if (bvh) {
+    frame.position =
+        parent.position + scale * (parent.rotation * translation(joint, channels, joint.offset));
+    return frame;
+  }
+  frame.rotation = joint.rotation_order.empty() ? parent.rotation
+                                                : Matrix3d(frame.rotation * joint.axis.transpose());
+  const Vector3d moved = own_axes * translation(joint, channels, Vector3d::Zero());
+  Vector3d bone = joint.offset;
+  const double longer = stretch(joint, channels);
+  if (longer != 0 && bone.norm() > 0) bone += longer * bone.normalized();
+  frame.position = parent.position +
+                   scale * (moved + (joint.parent < 0 ? bone : Vector3d(frame.rotation * bone)));
+  return frame;
 }
 
-void forward_kinematics_from(const Skeleton& skeleton, std::size_t first,
-                             std::span<const double> channels, std::span<JointFrame> joints) {
+void forward_kinematics(const Skeleton& skeleton, std::span<const double> channels,
+                        std::span<JointFrame> joints) {
   assert(channels.size() == static_cast<std::size_t>(skeleton.channel_count));
   assert(joints.size() == skeleton.joints.size());
-  const JointFrame world{Matrix3d::Identity(), Vector3d::Zero()};
-  for (std::size_t j = first; j < joints.size(); ++j) {
+  const JointFrame world;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     joints[j] =
         place_joint(skeleton, joint, channels, joint.parent < 0 ? world : joints[joint.parent]);

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "reprise/formats/motion_file.h"
 
@@ -136,6 +139,44 @@ TEST(AsfKinematics, ABoneMayMoveAndStretch) {
   const PositionMatrix places = leg("0 0 0 XYZ", "l", "2");
   expect_near(place(places, 1), {50, 0, 0});
   expect_near(place(places, 2), {50, 10, 0});
+}
+
+TEST(PlaceJoint, SaysWhatEachRotationTurnsAbout) {
+  const std::string asf = R"(:units
+  angle deg
+:root
+  order TX TY TZ RX RY RZ
+:bonedata
+  begin
+    id 1
+    name bone
+    direction 0 0 1
+    length 3
+    axis 20 30 40 XYZ
+    dof rx ry rz
+  end
+:hierarchy
+  begin
+    root bone
+  end
+)";
+  const Skeleton skeleton = read_asf(asf, "bone.asf");
+  const Joint& bone = skeleton.joints[1];
+  std::vector<double> channels = {1, 2, 3, 10, 20, 30, 40, 50, 60};
+  const JointFrame parent = place_joint(skeleton, skeleton.joints[0], channels, {});
+  std::array<Vector3d, 3> axes;
+  const JointFrame frame = place_joint(skeleton, bone, channels, parent, axes);
+  constexpr double step = 1e-4;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    EXPECT_NEAR(axes[k].norm(), 1.0, 1e-12);
+    double& angle = channels[static_cast<std::size_t>(bone.first_channel + bone.rotation_slots[k])];
+    angle += step;
+    const JointFrame moved = place_joint(skeleton, bone, channels, parent);
+    angle -= step;
+    const Vector3d expected =
+        (step * std::numbers::pi / 180) * axes[k].cross(frame.position - parent.position);
+    EXPECT_LT((moved.position - frame.position - expected).norm(), 1e-3 * expected.norm() + 1e-9);
+  }
 }
 
 TEST(AxisRotation, IsRightHanded) {
