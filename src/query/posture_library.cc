@@ -21,7 +21,9 @@ SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes
   }
   std::vector<float> factors = factors_to_median_size(sizes);
   for (std::size_t take = 0; take < postures.size(); ++take) postures[take] *= factors[take];
-  return {std::move(takes), std::move(factors), PostureLibrary(std::move(postures), constants)};
+  PostureLibrary library(std::move(postures), constants);
+  library.narrow_to_reach(constants);
+  return {std::move(takes), std::move(factors), std::move(library)};
 }
 
 float own_size_distance(const SkeletonPostures& postures, const Occurrence& reference,

@@ -86,7 +86,7 @@ std::vector<std::pair<std::size_t, TracedPath>> trace_plot(const PostureLibrary&
     const auto on_it = [&](const auto& known) { return lies_on(known.second.path, pair); };
     if (std::ranges::any_of(traced, on_it)) continue;
     SimilarPath path =
-        trace_path(library.projected[pair.take], library.projected[pair.other_take],
+        trace_path(library.side(pair.take), library.side(pair.other_take),
                    {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
     if (path.pixels.empty()) continue;
     traced.push_back({i, {pair.take, pair.other_take, std::move(path)}});

@@ -12,6 +12,11 @@ struct RepeatConstants {
 
   /// Pixels of the self-distance plot further than this are dissimilar (mm). Measured.
   float similar_mm = 80;
+  /// Where this part of a library's postures is near, postures have to be nearer still to be
+  /// similar: within this share of that distance (see PostureLibrary::narrow_to_reach). Without it
+  /// paths run on through stands, of which each is within similar_mm of all others. Measured.
+  double reach_part = 0.1;
+  float reach_share = 0.8F;
   /// A path goes on over dissimilar pixels for this long (s). lin-2011 section 4.2.1.
   double bridge_s = 0.3;
   /// The least Manhattan length of a path (s). lin-2011 section 4.2.1.

@@ -9,6 +9,7 @@
 
 #include "rma/clip_extents.h"
 #include "rma/parallel_for.h"
+#include "rma/posture_reach.h"
 
 namespace reprise {
 namespace {
@@ -184,7 +185,20 @@ RepeatGroup GroupFinder::members_of(const Occurrence& clip) const {
 PostureLibrary::PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants)
     : postures(std::move(takes)) {
   const PostureBasis basis(postures, constants.axes);
-  for (const PostureMatrix& take : postures) projected.push_back(basis.project(take));
+  for (const PostureMatrix& take : postures) {
+    projected.push_back(basis.project(take));
+    similar_mm.emplace_back(static_cast<std::size_t>(take.rows()), constants.similar_mm);
+  }
+}
+
+void PostureLibrary::narrow_to_reach(const RepeatConstants& constants) {
+  constexpr float least_mm = 1;  // distances are divided by it
+  const auto reaches = posture_reaches(projected, constants.reach_part);
+  for (std::size_t take = 0; take < takes(); ++take) {
+    std::ranges::transform(reaches[take], similar_mm[take].begin(), [&](float reach) {
+      return std::clamp(constants.reach_share * reach, least_mm, constants.similar_mm);
+    });
+  }
 }
 
 PostureView PostureLibrary::view(std::size_t take, long begin, long end) const {

@@ -12,6 +12,7 @@
 #include "rma/clip_alignment.h"
 #include "rma/postures.h"
 #include "rma/repeat_constants.h"
+#include "rma/similar_posture_paths.h"
 
 namespace reprise {
 
@@ -19,11 +20,20 @@ namespace reprise {
 struct PostureLibrary {
   std::vector<PostureMatrix> postures;
   std::vector<PostureMatrix> projected;
+  /// Of each sample: the distance (mm) from which on a posture is dissimilar.
+  std::vector<std::vector<float>> similar_mm;
 
   PostureLibrary() = default;
+  /// All samples have RepeatConstants::similar_mm.
   PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants);
 
+  /// Lowers `similar_mm` to RepeatConstants::reach_share of a sample's reach (posture_reaches).
+  /// For libraries of many takes; in a single take that does one thing all is within reach.
+  void narrow_to_reach(const RepeatConstants& constants);
+
   std::size_t takes() const { return postures.size(); }
+  /// One side of a plot.
+  PlotSide side(std::size_t take) const { return {projected[take], similar_mm[take]}; }
   PostureView view(std::size_t take, long begin, long end) const;
 };
 

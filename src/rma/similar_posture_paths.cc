@@ -36,22 +36,20 @@ struct Row {
 /// Explores from one pixel towards one corner of the plot.
 class Explorer {
  public:
-  Explorer(const PostureMatrix& x, const PostureMatrix& y, PlotPixel start, int direction,
-           long least_lag, const RepeatConstants& constants)
+  Explorer(const PlotSide& x, const PlotSide& y, PlotPixel start, int direction, long least_lag,
+           const RepeatConstants& constants)
       : x_(x),
         y_(y),
         start_(start),
         direction_(direction),
         least_lag_(least_lag),
-        similar_(constants.similar_mm),
         // A bridge this long at twice the distance that counts as similar uses up what is allowed.
-        allowed_drop_(constants.similar_mm *
-                      static_cast<float>(constants.bridge_s * constants.rate)) {}
+        allowed_drop_(static_cast<float>(constants.bridge_s * constants.rate)) {}
 
   /// Pixels after the start, in the order of exploration.
   std::vector<PlotPixel> run() {
     rows_.push_back({0, {0.0F}, {std::int8_t{-1}}});
-    const long most_rows = direction_ > 0 ? x_.rows() - start_.x : start_.x + 1;
+    const long most_rows = direction_ > 0 ? x_.postures.rows() - start_.x : start_.x + 1;
     while (static_cast<long>(rows_.size()) < most_rows && explore_row()) {
     }
     return walk_back();
@@ -62,10 +60,17 @@ class Explorer {
     return {start_.x + direction_ * row, start_.y + direction_ * column};
   }
 
+  /// 1 where the postures are the same, 0 from where on they are dissimilar, then negative.
+  float likeness(const PlotPixel& at) const {
+    const float distance = (x_.postures.row(at.x) - y_.postures.row(at.y)).norm();
+    return 1 - distance / std::sqrt(x_.similar_mm[static_cast<std::size_t>(at.x)] *
+                                    y_.similar_mm[static_cast<std::size_t>(at.y)]);
+  }
+
   /// False once nothing can be reached any more.
   bool explore_row() {
     const long row = static_cast<long>(rows_.size());
-    const long most_columns = direction_ > 0 ? y_.rows() - start_.y : start_.y + 1;
+    const long most_columns = direction_ > 0 ? y_.postures.rows() - start_.y : start_.y + 1;
     long first = std::numeric_limits<long>::max(), end = 0;
     for (const Step& step : steps) {
       if (step.x > row) continue;
@@ -88,7 +93,7 @@ class Explorer {
     float best = never;
     std::int8_t by = -1;
     if (least_lag_ == 0 || std::labs(at.x - at.y) >= least_lag_) {
-      const float gain = similar_ - (x_.row(at.x) - y_.row(at.y)).norm();
+      const float gain = likeness(at);
       for (std::size_t s = 0; s < steps.size(); ++s) {
         if (steps[s].x > row) continue;
         const float length = 0.5F * static_cast<float>(steps[s].x + steps[s].y);
@@ -136,12 +141,11 @@ class Explorer {
     return pixels;
   }
 
-  const PostureMatrix& x_;
-  const PostureMatrix& y_;
+  const PlotSide& x_;
+  const PlotSide& y_;
   PlotPixel start_;
   int direction_;
   long least_lag_;
-  float similar_;
   float allowed_drop_;
   std::vector<Row> rows_;
   float best_ = 0;
@@ -155,8 +159,8 @@ long SimilarPath::manhattan_length() const {
   return pixels.back().x - pixels.front().x + pixels.back().y - pixels.front().y;
 }
 
-SimilarPath trace_path(const PostureMatrix& x, const PostureMatrix& y, PlotPixel start,
-                       bool same_take, const RepeatConstants& constants) {
+SimilarPath trace_path(const PlotSide& x, const PlotSide& y, PlotPixel start, bool same_take,
+                       const RepeatConstants& constants) {
   const long least_lag =
       same_take ? std::lround(std::ceil(constants.least_lag_s * constants.rate)) : 0;
   if (same_take && std::labs(start.x - start.y) < least_lag) return {};
@@ -167,7 +171,9 @@ SimilarPath trace_path(const PostureMatrix& x, const PostureMatrix& y, PlotPixel
   const auto after = Explorer(x, y, start, 1, least_lag, constants).run();
   path.pixels.insert(path.pixels.end(), after.begin(), after.end());
   float sum = 0;
-  for (const PlotPixel& pixel : path.pixels) sum += (x.row(pixel.x) - y.row(pixel.y)).norm();
+  for (const PlotPixel& pixel : path.pixels) {
+    sum += (x.postures.row(pixel.x) - y.postures.row(pixel.y)).norm();
+  }
   path.mean_mm = sum / static_cast<float>(path.pixels.size());
   return path;
 }

@@ -1,6 +1,7 @@
 // Similar-posture paths of a self-distance plot (lin-2011 section 4.2.1).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "rma/postures.h"
@@ -24,11 +25,18 @@ struct SimilarPath {
   long manhattan_length() const;
 };
 
+/// One side of a plot: projected postures, and of each the distance (mm, above 0) from which on a
+/// posture is dissimilar. Two postures are dissimilar from the geometric mean of theirs on.
+struct PlotSide {
+  const PostureMatrix& postures;
+  std::span<const float> similar_mm;
+};
+
 /// The path of least cost through `start` towards both ends: it goes on as long as what is similar
 /// outweighs what is not, over a bridge of dissimilar pixels too. The plot is not computed but
-/// where the path may lie. `x` and `y` are projected postures; with `same_take` the pixels near the
-/// diagonal are forbidden. Without pixels where `start` itself is forbidden.
-SimilarPath trace_path(const PostureMatrix& x, const PostureMatrix& y, PlotPixel start,
-                       bool same_take, const RepeatConstants& constants);
+/// where the path may lie. With `same_take` the pixels near the diagonal are forbidden. Without
+/// pixels where `start` itself is forbidden.
+SimilarPath trace_path(const PlotSide& x, const PlotSide& y, PlotPixel start, bool same_take,
+                       const RepeatConstants& constants);
 
 }  // namespace reprise

@@ -8,6 +8,7 @@
 #include "query/near_windows.h"
 #include "rma/clip_extents.h"
 #include "rma/made_up_postures.h"
+#include "rma/posture_reach.h"
 
 namespace reprise {
 namespace {
@@ -69,6 +70,69 @@ TEST(RepeatGroups, StancesAreNotMotion) {
   EXPECT_TRUE(
       find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants)
           .empty());
+}
+
+/// A stand that sways by some 10 mm, never twice the same way; all of them are alike.
+PostureMatrix swaying_stand(int seed, double seconds) {
+  constexpr float sway = 0.08F;
+  PostureMatrix stand = sway * made_up_take(seed, 0, seconds);
+  stand.rowwise() += made_up_posture(100, 0);
+  return stand;
+}
+
+/// One motion of 2 s between stands of 4 s and more, at 4 s, 5 s and 6 s; and stands alone.
+PostureLibrary motion_between_stands() {
+  const auto around_motion = [](int seed, double before) {
+    return joined({swaying_stand(seed, before), made_up_take(1, 0, 2), swaying_stand(seed + 1, 5)});
+  };
+  return PostureLibrary({around_motion(10, 4), around_motion(12, 5), around_motion(14, 6),
+                         swaying_stand(16, 12), swaying_stand(17, 12)},
+                        constants);
+}
+
+TEST(RepeatGroups, StandsDoNotCarryAMotionOn) {
+  PostureLibrary library = motion_between_stands();
+  library.narrow_to_reach(constants);
+  const auto groups =
+      find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants);
+  EXPECT_TRUE(std::ranges::any_of(groups, [&](const RepeatGroup& group) {
+    const auto& all = group.occurrences;
+    return all.size() == 3 && std::ranges::all_of(all, [&](const Occurrence& o) {
+             const long begin = 60 + 15 * static_cast<long>(o.take);
+             return o.take < 3 && overlap_ratio(o.begin, o.end, begin, begin + 30) >= 0.75;
+           });
+  }));
+}
+
+TEST(PostureReach, IsShortWhereManyPosturesAreNear) {
+  const PostureLibrary library = motion_between_stands();
+  const auto reaches = posture_reaches(library.projected, constants.reach_part);
+  ASSERT_EQ(reaches.size(), library.takes());
+  for (std::size_t take = 0; take < library.takes(); ++take) {
+    ASSERT_EQ(static_cast<long>(reaches[take].size()), library.projected[take].rows());
+  }
+  for (std::size_t s = 0; s < 60; ++s) EXPECT_LT(reaches[0][s], 60);
+  for (std::size_t s = 65; s < 85; ++s) EXPECT_GT(reaches[0][s], 100);
+}
+
+TEST(PostureReach, IsAMatterOfThePart) {
+  const PostureLibrary library = motion_between_stands();
+  const auto none = posture_reaches(library.projected, 0);
+  const auto all = posture_reaches(library.projected, 1);
+  const auto some = posture_reaches(library.projected, 0.1);
+  for (std::size_t s = 0; s < some[0].size(); ++s) {
+    EXPECT_NEAR(none[0][s], 0, 1);  // a posture is near itself
+    EXPECT_LE(none[0][s], some[0][s]);
+    EXPECT_LT(some[0][s], all[0][s]);
+  }
+}
+
+TEST(PostureReach, OfTakesWithoutSamples) {
+  EXPECT_TRUE(posture_reaches({}, 0.1).empty());
+  const std::vector<PostureMatrix> takes{PostureMatrix(0, 3)};
+  const auto reaches = posture_reaches(takes, 0.1);
+  ASSERT_EQ(reaches.size(), 1u);
+  EXPECT_TRUE(reaches[0].empty());
 }
 
 TEST(RepeatGroups, OfNothing) {

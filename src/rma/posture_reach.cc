@@ -1,0 +1,50 @@
+#include "rma/posture_reach.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace reprise {
+namespace {
+
+/// Every so many-th posture of all takes, so that there are at least this many, or all.
+PostureMatrix spread_sample(std::span<const PostureMatrix> takes) {
+  constexpr long least = 1000;
+  long total = 0;
+  for (const PostureMatrix& take : takes) total += take.rows();
+  const long stride = std::max(1L, total / least);
+  PostureMatrix sample((total + stride - 1) / stride, takes.empty() ? 0 : takes[0].cols());
+  long next = 0, before = 0;  // counted over all takes
+  for (const PostureMatrix& take : takes) {
+    for (; next < before + take.rows(); next += stride) {
+      sample.row(next / stride) = take.row(next - before);
+    }
+    before += take.rows();
+  }
+  return sample;
+}
+
+}  // namespace
+
+std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> projected,
+                                                double part) {
+  assert(part >= 0 && part <= 1);
+  const PostureMatrix sample = spread_sample(projected);
+  const Eigen::RowVectorXf squares = sample.rowwise().squaredNorm().transpose();
+  const auto rank = static_cast<long>(part * static_cast<double>(sample.rows() - 1));
+  std::vector<std::vector<float>> reaches;
+  for (const PostureMatrix& take : projected) {
+    PostureMatrix squared = -2 * take * sample.transpose();
+    squared.rowwise() += squares;
+    squared.colwise() += take.rowwise().squaredNorm();
+    std::vector<float>& reach = reaches.emplace_back();
+    for (long s = 0; s < take.rows(); ++s) {
+      float* const distances = squared.row(s).data();
+      std::nth_element(distances, distances + rank, distances + squared.cols());
+      reach.push_back(std::sqrt(std::max(0.0F, distances[rank])));
+    }
+  }
+  return reaches;
+}
+
+}  // namespace reprise

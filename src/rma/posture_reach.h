@@ -1,0 +1,18 @@
+// How crowded the postures of a library are: what "similar" means where all is alike.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rma/postures.h"
+
+namespace reprise {
+
+/// Of each sample of each take: its reach, the distance (mm) within which `part` (0 to 1) of all
+/// postures lie, itself among them. It is short where people stand and long within rare motion.
+/// Large libraries are judged by a thousand or two of their postures, evenly spread. `projected`
+/// are postures on the axes of one PostureBasis.
+std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> projected,
+                                                double part);
+
+}  // namespace reprise
