@@ -27,7 +27,8 @@ struct RepeatConstants {
   /// A take is not compared with itself nearer to the diagonal than this (s).
   double least_lag_s = 0.4;
 
-  /// A member's greatest mean joint distance to its group's reference (mm). Measured.
+  /// A member's greatest mean joint distance to its group's reference (mm), where similar_mm holds
+  /// for all of the reference; less in proportion where it is narrowed. Measured.
   float member_mm = 60;
   /// The shortest clip that is reported (s).
   double least_clip_s = 0.5;

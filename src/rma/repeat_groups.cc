@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -117,12 +118,22 @@ bool moves(const PostureView& clip, const RepeatConstants& constants) {
          sum / static_cast<double>(steps) * constants.rate >= constants.least_speed_mm_s;
 }
 
+/// The mean joint distance (mm) to the clip up to which something repeats it: less where the clip's
+/// postures have to be nearer to be similar.
+float most_distance(const PostureLibrary& library, const Occurrence& clip,
+                    const RepeatConstants& constants) {
+  const auto similar = library.similar_mm[clip.take].begin();
+  const float sum = std::accumulate(similar + clip.begin, similar + clip.end, 0.0F);
+  const float mean = sum / static_cast<float>(clip.end - clip.begin);
+  return constants.member_mm * mean / constants.similar_mm;
+}
+
 /// What is like the clip in a stretch and does not overlap it.
 std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurrence& clip,
                                    const PostureView& view, const Stretch& stretch,
                                    const RepeatConstants& constants) {
-  const auto found =
-      align_clip(view, library.view(stretch.take, stretch.begin, stretch.end), constants.member_mm);
+  const auto found = align_clip(view, library.view(stretch.take, stretch.begin, stretch.end),
+                                most_distance(library, clip, constants));
   const long least = std::lround(constants.least_clip_s * constants.rate);
   std::vector<Occurrence> members;
   for (const AlignedClip& member : found) {

@@ -104,6 +104,18 @@ TEST(RepeatGroups, StandsDoNotCarryAMotionOn) {
   }));
 }
 
+TEST(RepeatsOfAClip, HaveToBeNearerWhereAllIsAlike) {
+  PostureLibrary library = motion_between_stands();
+  const Occurrence stand{3, 0, 30, 0}, motion{0, 60, 90, 0};
+  const RepeatGroup alike = find_repeats_of(library, stand, constants);
+  library.narrow_to_reach(constants);
+  const RepeatGroup nearer = find_repeats_of(library, stand, constants);
+  EXPECT_LT(nearer.occurrences.size(), alike.occurrences.size());
+  const float most = *std::ranges::max_element(library.similar_mm[3]);
+  for (const Occurrence& o : nearer.occurrences) EXPECT_LT(o.distance_mm, most);
+  EXPECT_EQ(find_repeats_of(library, motion, constants).occurrences.size(), 3u);
+}
+
 TEST(PostureReach, IsShortWhereManyPosturesAreNear) {
   const PostureLibrary library = motion_between_stands();
   const auto reaches = posture_reaches(library.projected, constants.reach_part);
