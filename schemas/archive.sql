@@ -15,5 +15,5 @@ CREATE TABLE spaces(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES
 -- Up to 64 takes each: what is known of them and their clips, column by column, and their coded motion. Take t is in block t / 64.
 CREATE TABLE blocks(id INTEGER PRIMARY KEY, takes BLOB NOT NULL, digest BLOB NOT NULL, data BLOB NOT NULL);
 
--- Where takes are found: by their names, and by the IDs of their clips.
+-- Where takes are found: by their names, and by the IDs of their clips; and blocks of them, by the words, subjects and kinds of clips that they have.
 CREATE TABLE keys(id INTEGER PRIMARY KEY, more BLOB NOT NULL);

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -189,6 +190,9 @@ class ArchiveStore {
  private:
   /// Takes whose name is `tail` or, unless `whole`, ends in it after a slash.
   std::vector<TakeRecord> takes_named(const std::string& tail, bool whole) const;
+  /// Takes of the blocks that have all of these terms (terms.h).
+  void for_each_take_with(const std::set<std::int64_t>& terms,
+                          const std::function<void(const TakeRecord&)>& visit) const;
   void count_clips(ArchiveStats& stats) const;
   void change_clips(const std::map<std::int64_t, std::vector<ClipRecord>>& changes);
   /// Makes clips of other takes unique where they repeat clips of this one, or are repeated by

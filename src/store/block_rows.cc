@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_known_blocks = 16;
 /// Takes of blocks beyond this have ids that keys cannot lead to.
 constexpr std::int64_t most_block_id =
-    (std::int64_t{1} << key_take_bits) / static_cast<std::int64_t>(TakeBlockLimits::takes) - 1;
+    (std::int64_t{1} << key_target_bits) / static_cast<std::int64_t>(TakeBlockLimits::takes) - 1;
 
 [[noreturn]] void throw_damaged(std::int64_t id) {
   throw Error(ErrorCode::damaged, "the archive is damaged: block " + std::to_string(id) +
@@ -91,6 +91,7 @@ ArchiveStore::Impl::OpenBlock& ArchiveStore::Impl::open_block() {
 }
 
 void ArchiveStore::Impl::write_block(const TakeBlock& block, const Bytes& data) {
+  write_terms(block);
   // Replacing a row takes new pages before it frees those of the old one, which then stay in the
   // file unused.
   prepare("DELETE FROM blocks WHERE id=?").bind(block.id).run();
@@ -106,21 +107,48 @@ void ArchiveStore::Impl::write_block(const TakeBlock& block, const Bytes& data) 
 
 void ArchiveStore::Impl::flush() {
   if (!open) return;
-  write_block(*open->block, open->data);
+  const OpenBlock closing = std::move(*open);
   open.reset();
+  write_block(*closing.block, closing.data);
+}
+
+void ArchiveStore::Impl::write_terms(const TakeBlock& block) {
+  const WordSplitter splitter(*database);
+  const auto before = this->block(block.id);
+  const TermKeys old_keys = before ? terms_of(*before, splitter) : TermKeys();
+  const TermKeys new_keys = terms_of(block, splitter);
+  const KeyRows rows(*database, KeyTarget::block);
+  for (const std::int64_t key : old_keys) {
+    if (!new_keys.contains(key)) rows.remove(key, block.id);
+  }
+  for (const std::int64_t key : new_keys) {
+    if (!old_keys.contains(key)) rows.add(key, block.id);
+  }
+}
+
+std::vector<std::int64_t> ArchiveStore::Impl::blocks_with(const TermKeys& terms) const {
+  const KeyRows rows(*database, KeyTarget::block);
+  std::vector<std::int64_t> ids;
+  for (const std::int64_t key : terms) {
+    const std::vector<std::int64_t> with = rows.find(key, key);
+    if (key == *terms.begin()) ids = with;
+    std::erase_if(ids, [&](std::int64_t id) { return !std::ranges::binary_search(with, id); });
+  }
+  if (open && !std::ranges::binary_search(ids, open->block->id)) ids.push_back(open->block->id);
+  return ids;
 }
 
 void ArchiveStore::Impl::add_keys(std::int64_t take, const std::set<std::int64_t>& keys) {
-  for (const std::int64_t key : keys) KeyRows(*database).add(key, take);
+  for (const std::int64_t key : keys) KeyRows(*database, KeyTarget::take).add(key, take);
 }
 
 void ArchiveStore::Impl::remove_keys(std::int64_t take, const std::set<std::int64_t>& keys) {
-  for (const std::int64_t key : keys) KeyRows(*database).remove(key, take);
+  for (const std::int64_t key : keys) KeyRows(*database, KeyTarget::take).remove(key, take);
 }
 
 std::vector<std::int64_t> ArchiveStore::Impl::takes_with_keys(std::int64_t first,
                                                               std::int64_t last) const {
-  return KeyRows(*database).takes(first, last);
+  return KeyRows(*database, KeyTarget::take).find(first, last);
 }
 
 std::int64_t key_of_address(std::uint64_t address) {

@@ -64,7 +64,8 @@ void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
   const Database& database = *impl_->database;
   Digest sum{};
   bool whole = true;
-  std::size_t keys = 0;
+  std::size_t keys = 0, terms = 0;
+  const KeyRows term_rows(database, KeyTarget::block);
   const auto check_take = [&](const TakeBlock& block, const StoredTake& take) {
     const std::int64_t id = block.id_of(take);
     add_to_sum(sum, content_of(id));
@@ -74,6 +75,14 @@ void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
       ++keys;
       const std::vector<std::int64_t> found = impl_->takes_with_keys(key, key);
       if (std::ranges::find(found, id) == found.end())
+        throw Error(ErrorCode::damaged, "it is not in the index");
+    }
+  };
+  const auto check_terms = [&](const TakeBlock& block) {
+    for (const std::int64_t key : terms_of(block, WordSplitter(database))) {
+      ++terms;
+      const std::vector<std::int64_t> found = term_rows.find(key, key);
+      if (std::ranges::find(found, block.id) == found.end())
         throw Error(ErrorCode::damaged, "it is not in the index");
     }
   };
@@ -89,11 +98,14 @@ void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
           throw Error(ErrorCode::damaged, "its motion is not as long as it should be");
         for (const StoredTake& take : block->takes)
           note_damage(take.record.info.name, damaged, [&] { check_take(*block, take); });
+        check_terms(*block);
       });
       whole = whole && damaged.size() == before;
     }
     if (!whole) return;
-    if (keys != KeyRows(database).count()) damaged.push_back({"keys", "some lead to no take"});
+    if (keys != KeyRows(database, KeyTarget::take).count())
+      damaged.push_back({"keys", "some lead to no take"});
+    if (terms != term_rows.count()) damaged.push_back({"keys", "some lead to no block"});
     Statement row(database, "SELECT value FROM meta WHERE key='content'");
     if (!row.step() || !std::ranges::equal(row.bytes(), sum))
       damaged.push_back({"takes", "they are not those that were stored"});

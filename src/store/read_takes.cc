@@ -118,6 +118,17 @@ void ArchiveStore::for_each_take(const std::function<void(const TakeRecord&)>& v
   });
 }
 
+void ArchiveStore::for_each_take_with(const std::set<std::int64_t>& terms,
+                                      const std::function<void(const TakeRecord&)>& visit) const {
+  SharedFactsById known;
+  for (const std::int64_t id : impl_->blocks_with(terms)) {
+    const auto block = impl_->block(id);
+    if (!block) throw_damaged("the index of terms");
+    for (const StoredTake& stored : block->takes)
+      visit(whole_record(*impl_->database, stored, known));
+  }
+}
+
 std::vector<TakeRecord> ArchiveStore::takes_named(const std::string& tail, bool whole) const {
   std::vector<TakeRecord> records;
   const std::int64_t key = key_of_name(whole ? tail : split_name(tail).second);
@@ -169,6 +180,9 @@ std::vector<std::string> ArchiveStore::take_names_ending_in(const std::string& t
 }
 
 std::vector<TakeInfo> ArchiveStore::takes(const TakeFilter& filter) const {
+  const WordSplitter splitter(*impl_->database);
+  // A text without words says nothing that could be found.
+  if (!filter.text.empty() && splitter.words(filter.text).empty()) return {};
   std::vector<TakeInfo> takes;
   const auto add_if_fitting = [&](const TakeRecord& record) {
     const TakeInfo& info = record.info;
@@ -177,10 +191,13 @@ std::vector<TakeInfo> ArchiveStore::takes(const TakeFilter& filter) const {
     if (filter.kind && !has_clip_of_kind(info.id, *filter.kind)) return;
     takes.push_back(info);
   };
-  if (filter.take.empty()) {
+  const TermKeys terms = terms_of(filter, splitter);
+  if (!filter.take.empty()) {
+    std::ranges::for_each(takes_named(filter.take, false), add_if_fitting);
+  } else if (terms.empty()) {
     for_each_take(add_if_fitting);
   } else {
-    std::ranges::for_each(takes_named(filter.take, false), add_if_fitting);
+    for_each_take_with(terms, add_if_fitting);
   }
   std::ranges::sort(takes, {}, &TakeInfo::name);
   return filter.text.empty() ? takes : matching(*impl_->database, takes, filter.text);

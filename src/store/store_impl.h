@@ -13,6 +13,7 @@
 #include "store/database.h"
 #include "store/digest.h"
 #include "store/take_block.h"
+#include "store/terms.h"
 
 namespace reprise {
 
@@ -74,6 +75,10 @@ struct ArchiveStore::Impl {
   OpenBlock& open_block();
   void write_block(const TakeBlock& block, const Bytes& data);
   void flush();  ///< writes the open block
+  /// Makes the index of terms say what a block has that is about to be written.
+  void write_terms(const TakeBlock& block);
+  /// Blocks that have all of these terms, one at least: those and maybe others.
+  std::vector<std::int64_t> blocks_with(const TermKeys& terms) const;
   /// Takes out the proportions, spaces and skeletons that only removed takes needed.
   void remove_vacated();
   void remove_proportions(std::int64_t id, std::int64_t skeleton,

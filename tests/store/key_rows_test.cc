@@ -9,7 +9,7 @@
 namespace reprise {
 namespace {
 
-class KeyRowsTest : public StoreTest {
+class KeyRowsTest : public StoreTest, public testing::WithParamInterface<KeyTarget> {
  protected:
   using Pair = std::pair<std::int64_t, std::int64_t>;
 
@@ -20,7 +20,7 @@ class KeyRowsTest : public StoreTest {
   }
 
   void expect_all(const std::set<Pair>& pairs, std::mt19937& random) const {
-    const KeyRows keys(*database_);
+    const KeyRows keys(*database_, GetParam());
     EXPECT_EQ(keys.count(), pairs.size());
     for (int i = 0; i < 50; ++i) {
       std::int64_t first = number(random, most_key), last = number(random, most_key);
@@ -30,7 +30,7 @@ class KeyRowsTest : public StoreTest {
       for (const auto& [key, take] : pairs) {
         if (key >= first && key <= last) expected.insert(take);
       }
-      const std::vector<std::int64_t> found = keys.takes(first, last);
+      const std::vector<std::int64_t> found = keys.find(first, last);
       EXPECT_TRUE(std::ranges::equal(found, expected)) << first << " " << last;
     }
   }
@@ -45,13 +45,13 @@ class KeyRowsTest : public StoreTest {
   }
 
   static constexpr std::int64_t most_key = (std::int64_t{1} << key_bits) - 1;
-  static constexpr std::int64_t most_take = (std::int64_t{1} << key_take_bits) - 1;
+  static constexpr std::int64_t most_take = (std::int64_t{1} << key_target_bits) - 1;
   std::optional<Database> database_;
 };
 
-TEST_F(KeyRowsTest, ComeAndGoAsASetOfPairs) {
+TEST_P(KeyRowsTest, ComeAndGoAsASetOfPairs) {
   std::mt19937 random(1);
-  const KeyRows keys(*database_);
+  const KeyRows keys(*database_, GetParam());
   // Few keys lead to many takes, many to one, and the extremes are among both.
   for (const auto& [last_key, last_take] :
        {Pair{3, 5000}, Pair{most_key, 5000}, Pair{most_key, most_take}, Pair{0, most_take}}) {
@@ -74,16 +74,36 @@ TEST_F(KeyRowsTest, ComeAndGoAsASetOfPairs) {
     for (const auto& [key, take] : pairs) keys.remove(key, take);
     EXPECT_EQ(rows(), 0);
     EXPECT_EQ(keys.count(), 0u);
-    EXPECT_TRUE(keys.takes(0, most_key).empty());
+    EXPECT_TRUE(keys.find(0, most_key).empty());
   }
 }
 
-TEST_F(KeyRowsTest, ManyShareARow) {
+TEST_P(KeyRowsTest, ManyShareARow) {
   std::mt19937 random(2);
-  const KeyRows keys(*database_);
+  const KeyRows keys(*database_, GetParam());
   for (int i = 0; i < 3000; ++i) keys.add(number(random, most_key), number(random, 9999));
   EXPECT_LT(rows(), 3000 / 32);
 }
+
+TEST_P(KeyRowsTest, LeaveOthersAlone) {
+  const KeyRows keys(*database_, GetParam());
+  const KeyRows others(*database_,
+                       GetParam() == KeyTarget::take ? KeyTarget::block : KeyTarget::take);
+  for (const auto& [key, id] : {Pair{0, 0}, Pair{7, 9}, Pair{most_key, most_take}}) {
+    others.add(key, id);
+    EXPECT_TRUE(keys.find(0, most_key).empty());
+    keys.remove(key, id);
+    EXPECT_EQ(keys.count(), 0u);
+  }
+  EXPECT_EQ(others.find(0, most_key).size(), 3u);
+  keys.add(7, 10);
+  EXPECT_EQ(others.find(7, 7), std::vector<std::int64_t>{9});
+}
+
+INSTANTIATE_TEST_SUITE_P(, KeyRowsTest, testing::Values(KeyTarget::take, KeyTarget::block),
+                         [](const auto& target) {
+                           return target.param == KeyTarget::take ? "Takes" : "Blocks";
+                         });
 
 }  // namespace
 }  // namespace reprise
