@@ -1,6 +1,6 @@
 #include "ingest/principal_components.h"
 
-#include <Eigen/Eigenvalues>
+#include "model/symmetric_eigen.h"
 
 namespace reprise {
 
@@ -45,19 +45,19 @@ PrincipalAxes principal_axes(const MatrixXd& covariance, const MatrixXd& known, 
         MatrixXd::Identity(covariance.rows(), covariance.cols()) - known * known.transpose();
     rest = outside * covariance * outside;
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rest);
+  const SymmetricEigen solved = symmetric_eigen(rest);
   const Eigen::Index dimensions = rest.rows();
   const Eigen::Index most = dimensions - known.cols();
   double left = rest.trace();
   Eigen::Index count = 0;
   while (count < most && left > residual) {
-    left -= solver.eigenvalues()[dimensions - 1 - count];
+    left -= solved.values[dimensions - 1 - count];
     ++count;
   }
   PrincipalAxes result{MatrixXd(dimensions, count), VectorXd(count)};
   for (Eigen::Index k = 0; k < count; ++k) {
-    result.axes.col(k) = solver.eigenvectors().col(dimensions - 1 - k);
-    result.variance[k] = solver.eigenvalues()[dimensions - 1 - k];
+    result.axes.col(k) = solved.vectors.col(dimensions - 1 - k);
+    result.variance[k] = solved.values[dimensions - 1 - k];
     // An eigenvector has no sign; fix it, so that equal input gives equal bytes.
     Eigen::Index largest = 0;
     result.axes.col(k).cwiseAbs().maxCoeff(&largest);

@@ -28,9 +28,17 @@ JointFrame frame_above(const Skeleton& skeleton, int root_joint, std::span<const
 }  // namespace
 
 Matrix3d home_orientation(int up_axis) {
-  const Vector3d up =
-      up_axis < 3 ? Vector3d::Unit(up_axis) : Vector3d(-Vector3d::Unit(up_axis - 3));
-  return Quaterniond::FromTwoVectors(up, Vector3d::UnitY()).toRotationMatrix();
+  const int axis = up_axis % 3;
+  const double sign = up_axis < 3 ? 1 : -1;
+  Matrix3d turn;
+  if (axis == 0) {
+    turn << 0, -sign, 0, sign, 0, 0, 0, 0, 1;
+  } else if (axis == 1) {
+    turn << sign, 0, 0, 0, sign, 0, 0, 0, 1;
+  } else {
+    turn << 1, 0, 0, 0, 0, sign, 0, -sign, 0;
+  }
+  return turn;
 }
 
 double heading_of(const Matrix3d& rotation) {

@@ -1,10 +1,11 @@
 #include "query/candidate_windows.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
+
+#include "model/symmetric_eigen.h"
 
 namespace reprise {
 namespace {
@@ -126,9 +127,9 @@ RowBasis RowBasis::of(const PointMatrix& rows, long most_axes) {
   basis.mean = rows.colwise().mean();
   const Eigen::MatrixXf centred = rows.rowwise() - basis.mean;
   const Eigen::MatrixXd covariance = (centred.transpose() * centred).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  const SymmetricEigen solved = symmetric_eigen(covariance);
   const long axes = std::min(most_axes, rows.cols());
-  basis.axes = solver.eigenvectors().rightCols(axes).cast<float>();
+  basis.axes = solved.vectors.rightCols(axes).cast<float>();
   return basis;
 }
 

@@ -1,11 +1,11 @@
 #include "query/near_windows.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
 
+#include "model/symmetric_eigen.h"
 #include "query/window_index.h"
 #include "rma/parallel_for.h"
 
@@ -59,10 +59,8 @@ Eigen::MatrixXf leading_axes(const PointMatrix& points, int count) {
   const Eigen::RowVectorXf mean = points.colwise().mean();
   const PointMatrix centred = points.rowwise() - mean;
   const Eigen::MatrixXd products = (centred.transpose() * centred).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(products);
-  return solver.eigenvectors()
-      .rightCols(std::min<Eigen::Index>(count, products.cols()))
-      .cast<float>();
+  const SymmetricEigen solved = symmetric_eigen(products);
+  return solved.vectors.rightCols(std::min<Eigen::Index>(count, products.cols())).cast<float>();
 }
 
 struct RankedPair {

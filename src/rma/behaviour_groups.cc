@@ -1,11 +1,12 @@
 #include "rma/behaviour_groups.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+
+#include "model/symmetric_eigen.h"
 
 namespace reprise {
 namespace {
@@ -70,10 +71,9 @@ class NormalisedCut {
     const MatrixXd w = weights_(set, set);
     const VectorXd degree = w.rowwise().sum();
     const VectorXd scale = degree.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * w *
-                                                         scale.asDiagonal());
+    const SymmetricEigen solved = symmetric_eigen(scale.asDiagonal() * w * scale.asDiagonal());
     const VectorXd vector =
-        scale.cwiseProduct(solver.eigenvectors().col(static_cast<Eigen::Index>(set.size()) - 2));
+        scale.cwiseProduct(solved.vectors.col(static_cast<Eigen::Index>(set.size()) - 2));
     std::vector<std::size_t> order(set.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {},
@@ -127,9 +127,9 @@ SegmentShape segment_shape(const Eigen::Ref<const PostureMatrix>& postures,
   const Eigen::RowVectorXd mean = samples.colwise().mean();
   shape.mean_posture = mean.transpose().normalized();
   const MatrixXd centred = samples.rowwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(centred.transpose() * centred);
+  const SymmetricEigen solved = symmetric_eigen(centred.transpose() * centred);
   const Eigen::Index count = std::min<Eigen::Index>(constants.axes, samples.cols());
-  shape.axes = solver.eigenvectors().rightCols(count).rowwise().reverse();
+  shape.axes = solved.vectors.rightCols(count).rowwise().reverse();
   return shape;
 }
 

@@ -1,8 +1,9 @@
 #include "rma/behaviour_segments.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "model/symmetric_eigen.h"
 
 namespace reprise {
 namespace {
@@ -13,10 +14,10 @@ class ProbabilisticModel {
   ProbabilisticModel(const Eigen::Ref<const Eigen::MatrixXd>& samples, double share) {
     mean_ = samples.colwise().mean();
     const Eigen::MatrixXd centred = samples.rowwise() - mean_;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-        centred.transpose() * centred / static_cast<double>(samples.rows()));
-    axes_ = solver.eigenvectors().rowwise().reverse();
-    variance_ = solver.eigenvalues().reverse().cwiseMax(least_variance);
+    const SymmetricEigen solved =
+        symmetric_eigen(centred.transpose() * centred / static_cast<double>(samples.rows()));
+    axes_ = solved.vectors.rowwise().reverse();
+    variance_ = solved.values.reverse().cwiseMax(least_variance);
     const double all = variance_.sum();
     Eigen::Index kept = 0;
     for (double covered = 0; kept < variance_.size() && covered < share * all; ++kept) {

@@ -1,12 +1,12 @@
 #include "rma/postures.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <iterator>
 
 #include "ingest/root_alignment.h"
+#include "model/symmetric_eigen.h"
 #include "reprise/model/kinematics.h"
 
 namespace reprise {
@@ -118,11 +118,10 @@ PostureBasis::PostureBasis(std::span<const PostureMatrix> takes, int axes) {
     const Eigen::MatrixXf centred = take.rowwise() - mean_;
     products.noalias() += (centred.transpose() * centred).cast<double>();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(products);
+  const SymmetricEigen solved = symmetric_eigen(products);
   const Eigen::Index kept = std::min<Eigen::Index>(axes, coordinates);
   const double joints = static_cast<double>(coordinates) / 3;
-  axes_ =
-      (solver.eigenvectors().rightCols(kept).rowwise().reverse() / std::sqrt(joints)).cast<float>();
+  axes_ = (solved.vectors.rightCols(kept).rowwise().reverse() / std::sqrt(joints)).cast<float>();
 }
 
 PostureMatrix PostureBasis::project(const PostureMatrix& postures) const {

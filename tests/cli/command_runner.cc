@@ -12,6 +12,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "kept_folder.h"
+
 namespace fs = std::filesystem;
 
 extern char** environ;
@@ -39,8 +41,7 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
 /// A name that differs where the library or the command that makes it does.
 std::string library_key(const std::vector<std::string>& synth,
                         const std::vector<std::string>& ingest) {
-  std::string key = std::to_string(fs::file_size(REPRISE_COMMAND)) + "-" +
-                    std::to_string(fs::last_write_time(REPRISE_COMMAND).time_since_epoch().count());
+  std::string key = program_key(REPRISE_COMMAND);
   for (const std::string& word : synth) key += " " + word;
   key += " ingest";
   for (const std::string& word : ingest) key += " " + word;
@@ -136,25 +137,15 @@ void CommandTest::make_library(const std::string& format) const {
 
 void CommandTest::make_library(const std::vector<std::string>& synth,
                                const std::vector<std::string>& ingest) const {
-  const fs::path kept = fs::path(REPRISE_TEST_LIBRARIES) / library_key(synth, ingest);
-  if (!fs::exists(kept)) {
+  fill_or_copy(fs::path(REPRISE_TEST_LIBRARIES) / library_key(synth, ingest), folder_, [&] {
     std::vector<std::string> words = {"synth", "takes"};
     words.insert(words.end(), synth.begin(), synth.end());
     output(words);
     words = {"ingest", "lib.rpz", "takes"};
     words.insert(words.end(), ingest.begin(), ingest.end());
     output(words);
-    if (HasFailure()) return;
-    // Tests run beside each other: whoever is first to rename a complete copy has made it.
-    const fs::path draft = kept.string() + folder_.filename().string();
-    fs::create_directories(draft);
-    fs::copy(folder_, draft, fs::copy_options::recursive);
-    std::error_code made_by_another;
-    fs::rename(draft, kept, made_by_another);
-    if (made_by_another) fs::remove_all(draft);
-  } else {
-    fs::copy(kept, folder_, fs::copy_options::recursive);
-  }
+    return !HasFailure();
+  });
 }
 
 std::vector<std::string> CommandTest::take_names(const std::string& archive) const {
