@@ -157,7 +157,7 @@ class NumbersDecoder {
       }
     }
     if (cut > text.size()) throw_damaged("it is cut by more than it has");
-    text.resize(text.size() - cut);
+    text.erase(text.size() - cut);
   }
 
  private:

@@ -146,7 +146,7 @@ void code_start(Io& io, CoefficientSpace& space, std::size_t channels) {
 
 template <class Io>
 void code_mean(Io& io, CoefficientSpace& space, double step) {
-  space.mean.conservativeResize(space.layout.dimensions());
+  space.mean.conservativeResizeLike(Eigen::VectorXd::Zero(space.layout.dimensions()));
   for (double& value : space.mean) {
     value = io.number(static_cast<std::int32_t>(std::lround(value / step))) * step;
   }
@@ -188,8 +188,10 @@ void code_space(Io& io, CoefficientSpace& space, const Skeleton& reference, Inde
       io.plain(static_cast<std::uint32_t>(space.axes.cols() - known_axes), 12);
   if (more > 0 && space.layout.dimensions() == 0) throw_damaged();
   if (more + known_axes > std::min<Index>(most_axes, space.layout.dimensions())) throw_damaged();
-  space.axes.conservativeResize(space.layout.dimensions(), known_axes + more);
-  space.variance.conservativeResize(known_axes + more);
+  // A reader's new numbers are looked at before they are read, so that they have to be some.
+  space.axes.conservativeResizeLike(
+      Eigen::MatrixXd::Zero(space.layout.dimensions(), known_axes + more));
+  space.variance.conservativeResizeLike(Eigen::VectorXd::Zero(known_axes + more));
   code_axes(io, space, known_axes, precision.axis_error_mm);
 }
 
