@@ -184,7 +184,8 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
     known->second.push_back(&fresh);
   }
   ClipPlan plan;
-  for (auto& [skeleton, fresh] : skeletons) {
+  for (const auto& [skeleton, fresh_takes] : skeletons) {
+    const auto& fresh = fresh_takes;  // clang 14 lets no lambda use a binding
     const RootAxis root = stored.root_of(skeleton);
     std::vector<PostureMatrix> postures;
     produce_in_order(

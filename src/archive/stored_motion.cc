@@ -57,7 +57,7 @@ std::vector<StoredMotion> StoredMotionReader::motions(std::int64_t skeleton, con
   for (const StoredMotion& motion : all_) {
     if (motion.take.skeleton == skeleton) chosen.push_back(motion);
   }
-  std::ranges::stable_partition(chosen, has_primary);
+  std::stable_partition(chosen.begin(), chosen.end(), has_primary);
   if (chosen.size() > most) chosen.resize(most);
   std::ranges::sort(chosen, {}, [](const StoredMotion& motion) { return motion.take.name; });
   for (StoredMotion& motion : chosen) {

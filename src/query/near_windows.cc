@@ -73,8 +73,8 @@ std::vector<NearPair> nearest_first(std::vector<RankedPair> ranked) {
   std::sort(ranked.begin(), ranked.end(), [](const RankedPair& a, const RankedPair& b) {
     return std::tie(a.pair, a.squared_distance) < std::tie(b.pair, b.squared_distance);
   });
-  const auto repeats = std::ranges::unique(ranked, {}, &RankedPair::pair);
-  ranked.erase(repeats.begin(), repeats.end());
+  const auto same = [](const RankedPair& a, const RankedPair& b) { return a.pair == b.pair; };
+  ranked.erase(std::unique(ranked.begin(), ranked.end(), same), ranked.end());
   std::sort(ranked.begin(), ranked.end(), [](const RankedPair& a, const RankedPair& b) {
     return std::tie(a.squared_distance, a.pair) < std::tie(b.squared_distance, b.pair);
   });

@@ -132,7 +132,7 @@ std::vector<std::int64_t> KeyRows::find(std::int64_t first, std::int64_t last) c
   rows.bind(first_row_ + from).bind(first_row_ + to);
   while (rows.step()) collect(next_row(rows));
   std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
