@@ -37,8 +37,10 @@ WordSplitter::~WordSplitter() { functions_.xDelete(tokenizer_); }
 
 std::set<std::string> WordSplitter::words(std::string_view text) const {
   std::set<std::string> words;
-  functions_.xTokenize(tokenizer_, &words, FTS5_TOKENIZE_DOCUMENT, text.data(),
-                       static_cast<int>(text.size()), collect);
+  if (functions_.xTokenize(tokenizer_, &words, FTS5_TOKENIZE_DOCUMENT, text.data(),
+                           static_cast<int>(text.size()), collect) != SQLITE_OK) {
+    throw Error(ErrorCode::failed, "SQLite cannot split a text into words");
+  }
   return words;
 }
 
