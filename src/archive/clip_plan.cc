@@ -19,6 +19,7 @@ RepeatConstants repeat_constants(const ClipPlanConstants& plan) {
   constants.rate = plan.rate;
   constants.least_clip_s = plan.least_clip_s;
   constants.explained_cover = plan.explained_cover;
+  constants.across_subjects = plan.across_subjects;
   return constants;
 }
 
@@ -40,12 +41,24 @@ class SkeletonPlanner {
         repeats_(repeat_constants(constants)),
         jobs_(jobs) {}
 
-  /// `postures` of the new takes, in their order. Groups are counted from `next_group` on.
-  void plan(std::vector<PostureMatrix> postures, std::int64_t& next_group, ClipPlan& plan) {
-    std::vector<PostureMatrix> all;
-    for (StoredMotion& motion : stored_) all.push_back(std::move(motion.postures));
-    std::ranges::move(postures, std::back_inserter(all));
-    library_ = PostureLibrary(std::move(all), repeats_);
+  /// `bodies` of the new takes, in their order. Groups are counted from `next_group` on.
+  void plan(std::vector<MovingBody> bodies, std::int64_t& next_group, ClipPlan& plan) {
+    std::vector<PostureMatrix> postures;
+    std::vector<double> sizes;
+    std::vector<std::string> subjects;
+    for (StoredMotion& motion : stored_) {
+      postures.push_back(std::move(motion.body.postures));
+      sizes.push_back(motion.body.size);
+      subjects.push_back(motion.take.subject);
+    }
+    for (std::size_t take = 0; take < bodies.size(); ++take) {
+      postures.push_back(std::move(bodies[take].postures));
+      sizes.push_back(bodies[take].size);
+      subjects.push_back(fresh_[take]->outline.subject);
+    }
+    bring_to_median_size(postures, sizes);
+    library_ = PostureLibrary(std::move(postures), repeats_);
+    library_.subjects = std::move(subjects);
     choose();
     divide();
     assign_groups(next_group);
@@ -187,21 +200,21 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
   for (const auto& [skeleton, fresh_takes] : skeletons) {
     const auto& fresh = fresh_takes;  // clang 14 lets no lambda use a binding
     const RootAxis root = stored.root_of(skeleton);
-    std::vector<PostureMatrix> postures;
+    std::vector<MovingBody> bodies;
     produce_in_order(
         fresh.size(), options.jobs,
         [&](std::size_t i) {
-          return aligned_postures(read_again(*fresh[i], options.read), root, constants.rate);
+          return moving_body(read_again(*fresh[i], options.read), root, constants.rate);
         },
-        [&](std::size_t i, PostureMatrix own) {
-          postures.push_back(std::move(own));
+        [&](std::size_t i, MovingBody own) {
+          bodies.push_back(std::move(own));
           tick(fresh[i]->file.name);
         });
     const std::size_t most_stored =
         std::min(constants.most_stored_takes, constants.stored_takes_per_new * fresh.size());
     SkeletonPlanner planner(stored.motions(skeleton, root, constants.rate, most_stored), fresh,
                             constants, options.jobs);
-    planner.plan(std::move(postures), next_group, plan);
+    planner.plan(std::move(bodies), next_group, plan);
   }
   return plan;
 }

@@ -20,6 +20,8 @@ struct ClipPlanConstants {
   /// (docs/findings/2026-11-25-behaviours.md).
   double least_clip_s = 1.5;
   double least_rest_s = 0.5;
+  /// As RepeatConstants::across_subjects. Wider: a primary's repeats cannot lead on to others.
+  float across_subjects = 1.75F;
   /// Windows for candidates: how many neighbours each looks for, and how far they are apart (s).
   std::size_t neighbours = 6;
   double hop_s = 0.5;

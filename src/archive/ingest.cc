@@ -119,6 +119,8 @@ class Ingest {
     Surveyed surveyed;
     try {
       surveyed.outline = outline_take(file, options_.read);
+      const TakeMetadata* row = metadata_.find(file.name);
+      if (row != nullptr && !row->subject.empty()) surveyed.outline.subject = row->subject;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
       surveyed.rejected = rejection(file, error);
@@ -254,9 +256,8 @@ class Ingest {
     record.space = assignment.space_id;
     TakeInfo& info = record.info;
     info.name = fresh.file.name;
-    info.subject = subject_of(fresh.file, take);
+    info.subject = fresh.outline.subject;
     if (const TakeMetadata* row = metadata_.find(info.name)) {
-      if (!row->subject.empty()) info.subject = row->subject;
       info.description = row->description;
       info.tags = row->tags;
     }

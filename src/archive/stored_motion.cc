@@ -15,6 +15,10 @@ bool has_primary(const StoredMotion& motion) {
 
 }  // namespace
 
+MovingBody moving_body(const Take& take, const RootAxis& root, double rate) {
+  return {aligned_postures(take, root, rate), body_size(take, root)};
+}
+
 StoredMotionReader::StoredMotionReader(const std::filesystem::path& archive,
                                        const std::vector<FreshTake>& fresh)
     : archive_(archive) {
@@ -62,7 +66,7 @@ std::vector<StoredMotion> StoredMotionReader::motions(std::int64_t skeleton, con
   std::ranges::sort(chosen, {}, [](const StoredMotion& motion) { return motion.take.name; });
   for (StoredMotion& motion : chosen) {
     const Take take = decode_layer(archive_, archive_.store.take(motion.take.id), 0);
-    motion.postures = aligned_postures(take, root, rate);
+    motion.body = moving_body(take, root, rate);
   }
   return chosen;
 }

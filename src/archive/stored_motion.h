@@ -12,10 +12,18 @@
 
 namespace reprise {
 
+/// Postures in a take and the size of the body (mm), with which they are compared to others.
+struct MovingBody {
+  PostureMatrix postures;
+  double size = 0;
+};
+
+MovingBody moving_body(const Take& take, const RootAxis& root, double rate);
+
 struct StoredMotion {
   TakeInfo take;
   std::vector<ClipInfo> clips;  ///< one at least
-  PostureMatrix postures;       ///< of the coarsest layer
+  MovingBody body;              ///< of the coarsest layer
 };
 
 class StoredMotionReader {

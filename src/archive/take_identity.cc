@@ -44,6 +44,7 @@ SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
 TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   TakeOutline outline;
   const auto [take, text] = read_with_digest(file, options, outline.source_digest);
+  outline.subject = take.skeleton->asf_name.empty() ? file.folder : take.skeleton->asf_name;
   outline.text_bytes = text.size();
   if (take.frames() == 0) {
     throw Error(ErrorCode::rejected_input, "the file has no frames", {file.path.string()});
@@ -86,10 +87,6 @@ std::uint64_t clip_address(const Digest& content) {
   std::uint64_t address = 0;
   for (int i = 0; i < 8; ++i) address = address << 8 | content[i];
   return address;
-}
-
-std::string subject_of(const InputFile& file, const Take& take) {
-  return take.skeleton->asf_name.empty() ? file.folder : take.skeleton->asf_name;
 }
 
 ClipRecord whole_take_clip(const Digest& content, long frames) {

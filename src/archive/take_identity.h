@@ -14,6 +14,7 @@ namespace reprise {
 /// What the first look at a file keeps of it.
 struct TakeOutline {
   std::string source_digest;  ///< hexadecimal, of the file's bytes and, of an AMC, the ASF's
+  std::string subject;        ///< the ASF's name, else the folder's
   std::uint64_t text_bytes = 0;
   Digest content{};
   std::shared_ptr<const Skeleton> skeleton;
@@ -51,9 +52,6 @@ Digest content_digest(const Skeleton& skeleton, const ChannelMatrix& channels, l
 
 /// The content address of a clip: the first eight bytes of its content digest, high byte first.
 std::uint64_t clip_address(const Digest& content);
-
-/// The metadata's subject comes first; else the ASF's name, else the folder's.
-std::string subject_of(const InputFile& file, const Take& take);
 
 ClipRecord whole_take_clip(const Digest& content, long frames);
 

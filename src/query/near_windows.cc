@@ -115,9 +115,12 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
         const std::span<const float> point(points.row(static_cast<long>(w)).data(),
                                            static_cast<std::size_t>(points.cols()));
         for (const Neighbour& near : index.nearest(point, constants.neighbours)) {
-          if (near.squared_distance > constants.most_mm * constants.most_mm) break;
           const Window& window = asked.windows[w];
           const Window& other = own.windows[near.point];
+          const float most = library.of_one_subject(window.take, other.take)
+                                 ? constants.most_mm
+                                 : repeats.across_subjects * constants.most_mm;
+          if (near.squared_distance > most * most) continue;
           const bool overlaps =
               other.take == window.take && std::abs(other.centre - window.centre) < least_lag;
           if (overlaps) continue;

@@ -20,7 +20,7 @@ struct NearWindowConstants {
   /// A window looks for this many others of each speed.
   std::size_t neighbours = 24;
   /// and no further than this: root mean square joint distance, mm.
-  double most_mm = 70;
+  float most_mm = 70;
 };
 
 /// Pairs of places whose windows are alike at some speed from 1/2 to 2, nearest first. A window is

@@ -19,8 +19,7 @@ SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes
     postures.push_back(aligned_postures(decoded, root, constants.rate));
     sizes.push_back(body_size(decoded, root));
   }
-  std::vector<float> factors = factors_to_median_size(sizes);
-  for (std::size_t take = 0; take < postures.size(); ++take) postures[take] *= factors[take];
+  std::vector<float> factors = bring_to_median_size(postures, sizes);
   PostureLibrary library(std::move(postures), constants);
   library.narrow_to_reach(constants);
   return {std::move(takes), std::move(factors), std::move(library)};

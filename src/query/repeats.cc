@@ -174,7 +174,13 @@ std::vector<RecurringMotion> Archive::repeats(const RepeatQuery& query,
                                      tick));
   }
   snapshot.reset();  // a writer need not wait for the comparing
-  for (const SkeletonPostures& of_skeleton : postures) reader.add_groups_of(of_skeleton);
+  for (SkeletonPostures& of_skeleton : postures) {
+    if (query.across_subjects) {
+      for (const TakeInfo& take : of_skeleton.takes)
+        of_skeleton.library.subjects.push_back(take.subject);
+    }
+    reader.add_groups_of(of_skeleton);
+  }
   return reader.finish();
 }
 

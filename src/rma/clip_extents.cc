@@ -85,9 +85,9 @@ std::vector<std::pair<std::size_t, TracedPath>> trace_plot(const PostureLibrary&
     const NearPair& pair = near_pairs[i];
     const auto on_it = [&](const auto& known) { return lies_on(known.second.path, pair); };
     if (std::ranges::any_of(traced, on_it)) continue;
-    SimilarPath path =
-        trace_path(library.side(pair.take), library.side(pair.other_take),
-                   {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
+    SimilarPath path = trace_path(
+        library.side(pair.take, pair.other_take), library.side(pair.other_take, pair.take),
+        {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
     if (path.pixels.empty()) continue;
     traced.push_back({i, {pair.take, pair.other_take, std::move(path)}});
   }

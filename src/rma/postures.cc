@@ -103,6 +103,13 @@ std::vector<float> factors_to_median_size(std::span<const double> sizes) {
   return factors;
 }
 
+std::vector<float> bring_to_median_size(std::span<PostureMatrix> takes,
+                                        std::span<const double> sizes) {
+  std::vector<float> factors = factors_to_median_size(sizes);
+  for (std::size_t take = 0; take < takes.size(); ++take) takes[take] *= factors[take];
+  return factors;
+}
+
 PostureBasis::PostureBasis(std::span<const PostureMatrix> takes, int axes) {
   Eigen::Index coordinates = 0, samples = 0;
   for (const PostureMatrix& take : takes) {

@@ -33,6 +33,9 @@ double body_size(const Take& take, const RootAxis& root);
 /// What to multiply the postures of bodies with to bring each to the median size. 1 for sizes that
 /// are not positive.
 std::vector<float> factors_to_median_size(std::span<const double> sizes);
+/// Brings the postures of each take to the median size; returns by which factors.
+std::vector<float> bring_to_median_size(std::span<PostureMatrix> takes,
+                                        std::span<const double> sizes);
 
 /// The leading axes of many postures. A distance of two projected postures is close to the root
 /// mean square distance of their joints in mm, and never larger.

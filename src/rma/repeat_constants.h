@@ -24,6 +24,10 @@ struct RepeatConstants {
   /// The steepest and, inverted, the flattest slope of a path. lin-2011 keeps both without a limit;
   /// it has to be more than 2, so that noise does not end the path of a clip at twice the speed.
   static constexpr int steepest = 3;
+  /// similar_mm and member_mm between takes of different subjects are this many times as wide,
+  /// where it is known who moves (PostureLibrary::subjects): people do the same thing differently.
+  /// Measured (docs/findings/2026-11-25-behaviours.md).
+  float across_subjects = 1.5F;
   /// A take is not compared with itself nearer to the diagonal than this (s).
   double least_lag_s = 0.4;
 

@@ -118,11 +118,11 @@ bool moves(const PostureView& clip, const RepeatConstants& constants) {
          sum / static_cast<double>(steps) * constants.rate >= constants.least_speed_mm_s;
 }
 
-/// The mean joint distance (mm) to the clip up to which something repeats it: less where the clip's
-/// postures have to be nearer to be similar.
-float most_distance(const PostureLibrary& library, const Occurrence& clip,
+/// The mean joint distance (mm) to the clip up to which something in a take repeats it: less where
+/// the clip's postures have to be nearer to be similar.
+float most_distance(const PostureLibrary& library, const Occurrence& clip, std::size_t take,
                     const RepeatConstants& constants) {
-  const auto similar = library.similar_mm[clip.take].begin();
+  const auto similar = library.similar(clip.take, take).begin();
   const float sum = std::accumulate(similar + clip.begin, similar + clip.end, 0.0F);
   const float mean = sum / static_cast<float>(clip.end - clip.begin);
   return constants.member_mm * mean / constants.similar_mm;
@@ -133,7 +133,7 @@ std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurren
                                    const PostureView& view, const Stretch& stretch,
                                    const RepeatConstants& constants) {
   const auto found = align_clip(view, library.view(stretch.take, stretch.begin, stretch.end),
-                                most_distance(library, clip, constants));
+                                most_distance(library, clip, stretch.take, constants));
   const long least = std::lround(constants.least_clip_s * constants.rate);
   std::vector<Occurrence> members;
   for (const AlignedClip& member : found) {
@@ -199,6 +199,8 @@ PostureLibrary::PostureLibrary(std::vector<PostureMatrix> takes, const RepeatCon
   for (const PostureMatrix& take : postures) {
     projected.push_back(basis.project(take));
     similar_mm.emplace_back(static_cast<std::size_t>(take.rows()), constants.similar_mm);
+    similar_across_mm.emplace_back(static_cast<std::size_t>(take.rows()),
+                                   constants.across_subjects * constants.similar_mm);
   }
 }
 
@@ -206,10 +208,21 @@ void PostureLibrary::narrow_to_reach(const RepeatConstants& constants) {
   constexpr float least_mm = 1;  // distances are divided by it
   const auto reaches = posture_reaches(projected, constants.reach_part);
   for (std::size_t take = 0; take < takes(); ++take) {
-    std::ranges::transform(reaches[take], similar_mm[take].begin(), [&](float reach) {
-      return std::clamp(constants.reach_share * reach, least_mm, constants.similar_mm);
-    });
+    for (auto* similar : {&similar_mm[take], &similar_across_mm[take]}) {
+      for (std::size_t s = 0; s < similar->size(); ++s) {
+        (*similar)[s] =
+            std::clamp(constants.reach_share * reaches[take][s], least_mm, (*similar)[s]);
+      }
+    }
   }
+}
+
+bool PostureLibrary::of_one_subject(std::size_t take, std::size_t other) const {
+  return subjects.empty() || subjects[take] == subjects[other];
+}
+
+const std::vector<float>& PostureLibrary::similar(std::size_t take, std::size_t other) const {
+  return of_one_subject(take, other) ? similar_mm[take] : similar_across_mm[take];
 }
 
 PostureView PostureLibrary::view(std::size_t take, long begin, long end) const {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "rma/clip_alignment.h"
@@ -20,20 +21,29 @@ namespace reprise {
 struct PostureLibrary {
   std::vector<PostureMatrix> postures;
   std::vector<PostureMatrix> projected;
-  /// Of each sample: the distance (mm) from which on a posture is dissimilar.
+  /// Of each sample: the distance (mm) from which on a posture is dissimilar, and the same for
+  /// postures of another subject.
   std::vector<std::vector<float>> similar_mm;
+  std::vector<std::vector<float>> similar_across_mm;
+  /// Of each take; empty where all distances have the same limits.
+  std::vector<std::string> subjects;
 
   PostureLibrary() = default;
-  /// All samples have RepeatConstants::similar_mm.
+  /// All samples have the limits of RepeatConstants.
   PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants);
 
-  /// Lowers `similar_mm` to RepeatConstants::reach_share of a sample's reach (posture_reaches).
+  /// Lowers limits to RepeatConstants::reach_share of a sample's reach (posture_reaches).
   /// For libraries of many takes; in a single take that does one thing all is within reach.
   void narrow_to_reach(const RepeatConstants& constants);
 
   std::size_t takes() const { return postures.size(); }
-  /// One side of a plot.
-  PlotSide side(std::size_t take) const { return {projected[take], similar_mm[take]}; }
+  bool of_one_subject(std::size_t take, std::size_t other) const;
+  /// The limits of a take's samples for postures of another take.
+  const std::vector<float>& similar(std::size_t take, std::size_t other) const;
+  /// One side of the plot of `take` beside another.
+  PlotSide side(std::size_t take, std::size_t other) const {
+    return {projected[take], similar(take, other)};
+  }
   PostureView view(std::size_t take, long begin, long end) const;
 };
 

@@ -116,6 +116,44 @@ TEST(RepeatsOfAClip, HaveToBeNearerWhereAllIsAlike) {
   EXPECT_EQ(find_repeats_of(library, motion, constants).occurrences.size(), 3u);
 }
 
+/// The same motion in another style: every posture about 70 mm off, one way for the whole clip.
+PostureMatrix styled(const PostureMatrix& motion) {
+  PostureMatrix other = motion;
+  for (Eigen::Index c = 0; c < other.cols(); ++c) other.col(c).array() += c % 2 == 0 ? 40.F : -40.F;
+  return other;
+}
+
+TEST(RepeatsOfAClip, MayBeFurtherApartWhereAnotherSubjectDoesIt) {
+  PostureLibrary library(
+      {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2)}),
+       joined({made_up_take(3, 0, 3), styled(made_up_take(1, 0, 2))}), made_up_take(4, 0, 5)},
+      constants);
+  const Occurrence clip{0, 45, 75, 0};
+  const auto repeats = [&] { return find_repeats_of(library, clip, constants).occurrences; };
+  EXPECT_EQ(repeats().size(), 1u);
+  library.subjects = {"a", "a", "a"};
+  EXPECT_EQ(repeats().size(), 1u);
+  library.subjects = {"a", "b", "a"};
+  ASSERT_EQ(repeats().size(), 2u);
+  EXPECT_EQ(repeats()[1].take, 1u);
+  EXPECT_GT(repeats()[1].distance_mm, constants.member_mm);
+  EXPECT_LE(repeats()[1].distance_mm, constants.across_subjects * constants.member_mm);
+}
+
+TEST(RepeatGroups, AreFoundAcrossSubjectsWhereItIsKnownWhoMoves) {
+  PostureLibrary library({joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2)}),
+                          joined({made_up_take(3, 0, 3), styled(made_up_take(1, 0, 2))})},
+                         constants);
+  const auto groups = [&] {
+    return find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt,
+                              constants);
+  };
+  EXPECT_TRUE(groups().empty());
+  library.subjects = {"a", "b"};
+  ASSERT_EQ(groups().size(), 1u);
+  EXPECT_TRUE(holds(groups()[0], 0, 45, 75) && holds(groups()[0], 1, 45, 75));
+}
+
 TEST(PostureReach, IsShortWhereManyPosturesAreNear) {
   const PostureLibrary library = motion_between_stands();
   const auto reaches = posture_reaches(library.projected, constants.reach_part);
