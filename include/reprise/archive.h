@@ -181,6 +181,7 @@ struct IngestReport {
   std::vector<std::string>
       other_fidelity;  ///< of `skipped`: stored with another than was asked for
   std::vector<RejectedInput> rejected;
+  std::vector<std::string> takes_not_found;  ///< of the metadata: rows that are of no input
   double seconds = 0;
 };
 

@@ -66,6 +66,9 @@ class Ingest {
     InputFiles inputs = find_input_files(options_.paths, options_.prefix);
     report_.rejected = std::move(inputs.rejected);
     files_ = std::move(inputs.files);
+    std::vector<std::string> names;
+    for (const InputFile& file : files_) names.push_back(file.name);
+    report_.takes_not_found = metadata_.rows_of_none(names);
     total_ = (options_.repeats ? 4 : 3) * files_.size();
     if (options_.dry_run) {
       if (std::filesystem::exists(archive_)) store_ = ArchiveStore::open_for_reading(archive_);

@@ -2,6 +2,7 @@
 
 #include <csv.h>
 
+#include <set>
 #include <vector>
 
 #include "reprise/error.h"
@@ -82,6 +83,16 @@ const TakeMetadata* MetadataTable::find(const std::string& take) const {
     at = slash == std::string::npos ? slash : slash + 1;
   }
   return nullptr;
+}
+
+std::vector<std::string> MetadataTable::rows_of_none(std::span<const std::string> takes) const {
+  std::set<const TakeMetadata*> found;
+  for (const std::string& take : takes) found.insert(find(take));
+  std::vector<std::string> names;
+  for (const auto& [name, row] : rows_) {
+    if (!found.contains(&row)) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace reprise

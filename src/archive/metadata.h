@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace reprise {
 
@@ -23,6 +25,8 @@ class MetadataTable {
   /// The row of a take: by its whole name, else by the longest trailing part that has one. Null:
   /// none.
   const TakeMetadata* find(const std::string& take) const;
+  /// The takes of the rows that none of `takes` finds, in order.
+  std::vector<std::string> rows_of_none(std::span<const std::string> takes) const;
 
  private:
   std::map<std::string, TakeMetadata> rows_;

@@ -161,6 +161,11 @@ ExitCode IngestCommand::run(Console& console) {
                     "--replace stores anew",
                     format_count(report.other_fidelity.size(), "take")));
   }
+  if (!report.takes_not_found.empty()) {
+    console.message(printable(fmt::format(
+        "{}: {} of no take that was given, such as '{}'", metadata_.string(),
+        format_count(report.takes_not_found.size(), "row"), report.takes_not_found.front())));
+  }
   if (report.added.size() + report.skipped.size() + report.rejected.size() == 0) {
     console.message("no BVH or AMC file was found; links to folders are not followed");
   }

@@ -100,6 +100,20 @@ TEST_F(IngestTest, MetadataIsShownAndSearched) {
   }
 }
 
+TEST_F(IngestTest, RowsOfNoTakeAreTold) {
+  make_library();
+  const std::string name = take_names().front();
+  const std::string file_name = name.substr(name.rfind('/') + 1);
+  write_file(folder() / "takes.csv",
+             "take,tags\n" + file_name + ",gait\nnobody_01,gait\nnobody_02,gait\n");
+  const auto told = reprise({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_NE(told.err.find("takes.csv: 2 rows of no take that was given, such as 'nobody_01'"),
+            std::string::npos)
+      << told.err;
+  EXPECT_EQ(document({"list", "told.rpz", "--text", "gait"}).at("takes").size(), 1U);
+}
+
 TEST_F(IngestTest, FiltersNarrowLists) {
   make_library();
   const std::string name = take_names().front();
