@@ -1,8 +1,8 @@
 // Where decoded angles must be told which of several ways to write a rotation the source uses.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "ingest/joint_angles.h"
 #include "ingest/trajectories.h"
 
 namespace reprise {

@@ -1,10 +1,10 @@
 #include "ingest/joint_angles.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
-#include <cmath>
 #include <numbers>
 
+#include "ingest/axis_turns.h"
+#include "ingest/rotation_angles.h"
 #include "ingest/virtual_markers.h"
 #include "reprise/model/kinematics.h"
 
@@ -14,58 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
-constexpr double degrees_per_radian = 180.0 / pi;
-/// Cosine of the middle angle under which two outer angles cannot be told apart.
-constexpr double gimbal_lock_cosine = 1e-5;
-/// Sweeps over the angles of a joint with two degrees of freedom, or a chain with repeated axes.
-constexpr int most_sweeps = 4;
-constexpr double sweep_tolerance = 1e-7;
-
-double next_to(double angle, double previous) {
-  // Most frames move by less than half a turn, and rounding is slow.
-  if (std::abs(previous - angle) < 3) return angle;
-  return angle + 2 * pi * std::round((previous - angle) / (2 * pi));
-}
-
-double distance(const EulerAngles& a, const EulerAngles& b) {
-  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
-}
-
-/// The angle about `axis` that turns best into `matrix`: the largest trace of matrix^T R.
-double best_angle(const Matrix3d& matrix, int axis) {
-  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-  return std::atan2(matrix(k, j) - matrix(j, k), matrix(j, j) + matrix(k, k));
-}
-
-/// The inverse's transpose, times the determinant.
-Matrix3d cofactor_matrix(const Matrix3d& matrix) {
-  Matrix3d result;
-  result.col(0) = matrix.col(1).cross(matrix.col(2));
-  result.col(1) = matrix.col(2).cross(matrix.col(0));
-  result.col(2) = matrix.col(0).cross(matrix.col(1));
-  return result;
-}
-
-/// The mean of a matrix and its inverse's transpose, again and again, brings the singular values to
-/// 1 and leaves the directions (Higham, Computing the polar decomposition, 1986). False if it did
-/// not get there.
-bool iterate_to_rotation(Matrix3d& matrix) {
-  constexpr int most_steps = 12;
-  constexpr double close_enough = 1e-14;
-  for (int step = 0; step < most_steps; ++step) {
-    const Matrix3d cofactors = cofactor_matrix(matrix);
-    const double determinant = matrix.col(0).dot(cofactors.col(0));
-    const double inverse_norm = cofactors.squaredNorm() / (determinant * determinant);
-    // Scaled so that the first steps are as quick as the last.
-    const double scale = std::sqrt(std::sqrt(inverse_norm / matrix.squaredNorm()));
-    const Matrix3d next = (0.5 * scale) * matrix + (0.5 / (scale * determinant)) * cofactors;
-    const double moved = (next - matrix).squaredNorm();
-    matrix = next;
-    if (!(moved > close_enough)) return std::isfinite(moved);
-  }
-  return false;
-}
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// Orthonormal axes with `first` along the first and `second` in the plane of the first two.
 /// Vectors too short or too alike to say so (a coarse decode may bring any) get some axes all the
@@ -91,124 +40,7 @@ bool off_bone_pair(const MarkerLayout& layout, const DrivenJoint& driven) {
   return driven.targets.size() == 2 && layout.markers[driven.targets[1].marker].off_bone;
 }
 
-/// A turn about a coordinate axis, by its cosine and sine.
-struct AxisTurn {
-  int axis = 0;
-  double cosine = 1, sine = 0;
-
-  int second() const { return (axis + 1) % 3; }
-  int third() const { return (axis + 2) % 3; }
-
-  /// R^T matrix.
-  void undo_before(Matrix3d& matrix) const {
-    const Eigen::RowVector3d row = matrix.row(second());
-    matrix.row(second()) = cosine * row + sine * matrix.row(third());
-    matrix.row(third()) = cosine * matrix.row(third()) - sine * row;
-  }
-  /// matrix R^T.
-  void undo_after(Matrix3d& matrix) const {
-    const Vector3d column = matrix.col(second());
-    matrix.col(second()) = cosine * column - sine * matrix.col(third());
-    matrix.col(third()) = cosine * matrix.col(third()) + sine * column;
-  }
-  /// matrix R.
-  void follow(Matrix3d& matrix) const {
-    const Vector3d column = matrix.col(second());
-    matrix.col(second()) = cosine * column + sine * matrix.col(third());
-    matrix.col(third()) = cosine * matrix.col(third()) - sine * column;
-  }
-  /// Becomes the turn with the largest trace of matrix^T R; returns how far it moved.
-  double fit(const Matrix3d& matrix) {
-    const double x = matrix(second(), second()) + matrix(third(), third());
-    const double y = matrix(third(), second()) - matrix(second(), third());
-    const double length = std::sqrt(x * x + y * y);
-    if (!(length > 0)) return 0;
-    const double moved = std::abs(x / length - cosine) + std::abs(y / length - sine);
-    cosine = x / length;
-    sine = y / length;
-    return moved;
-  }
-};
-
-/// Coordinate ascent on the trace of target^T E over the active angles, from where they are.
-/// Returns E, the product of all turns.
-Matrix3d ascend(const std::vector<RotationChannel>& rotations, const Matrix3d& target,
-                std::vector<double>& angles) {
-  const std::size_t count = rotations.size();
-  std::vector<AxisTurn> turns(count);
-  int active = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double angle = angles[rotations[k].channel];
-    turns[k] = {rotations[k].axis, std::cos(angle), std::sin(angle)};
-    active += rotations[k].active ? 1 : 0;
-  }
-  double moved = 1;
-  for (int sweep = 0; sweep < (active > 1 ? most_sweeps : 1) && moved >= sweep_tolerance; ++sweep) {
-    moved = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!rotations[k].active) continue;
-      Matrix3d seen = target;
-      for (std::size_t i = 0; i < k; ++i) turns[i].undo_before(seen);
-      for (std::size_t i = count; --i > k;) turns[i].undo_after(seen);
-      moved += turns[k].fit(seen);
-    }
-  }
-  Matrix3d product = Matrix3d::Identity();
-  for (std::size_t k = 0; k < count; ++k) {
-    turns[k].follow(product);
-    double& angle = angles[rotations[k].channel];
-    if (rotations[k].active) angle = next_to(std::atan2(turns[k].sine, turns[k].cosine), angle);
-  }
-  return product;
-}
-
 }  // namespace
-
-Matrix3d nearest_rotation(const Matrix3d& matrix) {
-  // With its cofactors added, a plane gets the normal that makes it proper, and a reflection turns
-  // into a rotation along its weakest direction.
-  const double norm = matrix.norm();
-  Matrix3d proper = matrix + cofactor_matrix(matrix) / norm;
-  constexpr double clearly_proper = 1e-4;
-  if (proper.determinant() > clearly_proper * norm * norm * norm && iterate_to_rotation(proper)) {
-    return proper;
-  }
-  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3d sign = Matrix3d::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  return svd.matrixU() * sign * svd.matrixV().transpose();
-}
-
-std::array<EulerAngles, 2> euler_angles(const Matrix3d& rotation, const std::array<int, 3>& axes,
-                                        const EulerAngles& previous) {
-  const auto [i, j, k] = axes;
-  const double sign = (i + 1) % 3 == j ? 1 : -1;
-  const double sine = std::clamp(sign * rotation(i, k), -1.0, 1.0);
-  const double cosine =
-      std::sqrt(rotation(i, i) * rotation(i, i) + rotation(i, j) * rotation(i, j));
-  EulerAngles one;
-  one[1] = std::atan2(sine, cosine);
-  if (cosine < gimbal_lock_cosine) {
-    one[2] = previous[2];
-    const Matrix3d rest = rotation * axis_rotation(k, -one[2]) * axis_rotation(j, -one[1]);
-    one[0] = best_angle(rest, i);
-  } else {
-    one[0] = std::atan2(-sign * rotation(j, k), rotation(k, k));
-    one[2] = std::atan2(-sign * rotation(i, j), rotation(i, i));
-  }
-  EulerAngles two = {one[0] + pi, pi - one[1], one[2] + pi};
-  for (int a = 0; a < 3; ++a) {
-    one[a] = next_to(one[a], previous[a]);
-    two[a] = next_to(two[a], previous[a]);
-  }
-  if (distance(two, previous) < distance(one, previous)) std::swap(one, two);
-  return {one, two};
-}
-
-EulerAngles nearest_euler_angles(const Matrix3d& rotation, const std::array<int, 3>& axes,
-                                 const EulerAngles& previous) {
-  return euler_angles(rotation, axes, previous)[0];
-}
 
 JointAngleSolver::JointAngleSolver(const MarkerLayout& layout, std::span<const double> start)
     : layout_(layout),
@@ -275,7 +107,7 @@ Matrix3d JointAngleSolver::solve_joint(std::size_t index, std::span<const double
         nearest_euler_angles(local, {r[0].axis, r[1].axis, r[2].axis}, previous);
     for (int k = 0; k < 3; ++k) angles_[r[k].channel] = now[k];
   } else {
-    local = ascend(driven.rotations, local, angles_);
+    local = fit_axis_turns(driven.rotations, local, angles_);
   }
   for (const RotationChannel& rotation : driven.rotations) {
     channels[rotation.channel] = angles_[rotation.channel] * degrees_per_radian;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ingest/joint_angles.h"
+#include "ingest/rotation_angles.h"
 
 namespace reprise {
 

@@ -1,4 +1,4 @@
-#include "ingest/joint_angles.h"
+#include "ingest/rotation_angles.h"
 
 #include <gtest/gtest.h>
 
