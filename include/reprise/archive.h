@@ -180,6 +180,7 @@ struct IngestReport {
   std::vector<std::string> skipped;
   std::vector<std::string>
       other_fidelity;  ///< of `skipped`: stored with another than was asked for
+  std::vector<std::string> other_metadata;  ///< of `skipped`: not what their rows say
   std::vector<RejectedInput> rejected;
   std::vector<std::string> takes_not_found;  ///< of the metadata: rows that are of no input
   double seconds = 0;

@@ -47,6 +47,12 @@ std::size_t bytes_of_layers(const TakeRecord& record) {
   return bytes;
 }
 
+/// Whether a stored take has what its row says of it; an empty subject says nothing.
+bool told_by(const TakeMetadata& row, const TakeInfo& stored) {
+  return (row.subject.empty() || row.subject == stored.subject) &&
+         row.description == stored.description && row.tags == stored.tags;
+}
+
 RejectedInput rejection(const InputFile& file, const Error& error) {
   std::string why = error.reason();
   if (!error.advice().empty()) why += "; " + error.advice();
@@ -137,9 +143,12 @@ class Ingest {
     const bool same_source = stored->info.source_digest == surveyed.outline.source_digest;
     const bool same_fidelity = stored->info.fidelity.tier == options_.fidelity.tier &&
                                stored->info.fidelity.limit_mm == options_.fidelity.limit_mm;
-    if (same_source && (same_fidelity || !options_.replace)) {
+    const TakeMetadata* row = metadata_.find(file.name);
+    const bool same_metadata = row == nullptr || told_by(*row, stored->info);
+    if (same_source && ((same_fidelity && same_metadata) || !options_.replace)) {
       surveyed.skipped = true;
       if (!same_fidelity) report_.other_fidelity.push_back(file.name);
+      if (!same_metadata) report_.other_metadata.push_back(file.name);
     } else if (options_.replace) {
       surveyed.replaces = true;
     } else {

@@ -68,6 +68,7 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
   return {{"added", report.added},
           {"skipped", report.skipped},
           {"other_fidelity", report.other_fidelity},
+          {"other_metadata", report.other_metadata},
           {"rejected", rejected},
           {"seconds", report.seconds},
           {"stats", to_json(stats)}};
@@ -107,7 +108,7 @@ void IngestCommand::setup(CLI::App& app) {
          "Put P/ in front of the names of this ingest")
       ->type_name("P");
   app.add_flag("--replace", options_.replace,
-               "Replace takes that are there with other content or another fidelity");
+               "Replace takes that are there with other content, metadata or another fidelity");
   app.add_flag_callback(
       "--no-contacts", [this] { options_.contacts = false; },
       "Do not hold feet where they stand: for comparison; they slide more");
@@ -160,6 +161,11 @@ ExitCode IngestCommand::run(Console& console) {
         fmt::format("{} stored with another fidelity than asked for, and kept so; "
                     "--replace stores anew",
                     format_count(report.other_fidelity.size(), "take")));
+  }
+  if (!report.other_metadata.empty()) {
+    console.message(
+        fmt::format("{} stored with other metadata than given, and kept so; --replace stores anew",
+                    format_count(report.other_metadata.size(), "take")));
   }
   if (!report.takes_not_found.empty()) {
     console.message(printable(fmt::format(

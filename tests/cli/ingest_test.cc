@@ -100,6 +100,24 @@ TEST_F(IngestTest, MetadataIsShownAndSearched) {
   }
 }
 
+TEST_F(IngestTest, MetadataThatComesLaterReplacesTakes) {
+  make_library();
+  const auto names = take_names();
+  const auto clips = document({"list", "lib.rpz", "--clips"}).at("clips");
+  write_file(folder() / "takes.csv", "take,description\n" + names[0] + ",a slow walk\n");
+  const std::vector<std::string> again = {"ingest", "lib.rpz", "takes", "--metadata", "takes.csv"};
+  const auto kept = document(again);
+  EXPECT_EQ(kept.at("other_metadata"), nlohmann::json::array({names[0]}));
+  EXPECT_EQ(document({"list", "lib.rpz", "--text", "slow"}).at("takes").size(), 0U);
+  std::vector<std::string> replacing = again;
+  replacing.push_back("--replace");
+  EXPECT_EQ(document(replacing).at("added"), nlohmann::json::array({names[0]}));
+  EXPECT_EQ(document({"list", "lib.rpz", "--text", "slow"}).at("takes").size(), 1U);
+  EXPECT_EQ(document({"list", "lib.rpz", "--clips"}).at("clips").size(), clips.size());
+  EXPECT_EQ(document(replacing).at("added").size(), 0U);
+  EXPECT_EQ(document(again).at("other_metadata").size(), 0U);
+}
+
 TEST_F(IngestTest, RowsOfNoTakeAreTold) {
   make_library();
   const std::string name = take_names().front();
