@@ -1,6 +1,7 @@
 // Drives an ingest: finds the takes, makes the spaces that they need, codes and stores them.
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,7 +12,7 @@
 #include "archive/metadata.h"
 #include "archive/parallel.h"
 #include "archive/space_builder.h"
-#include "archive/take_identity.h"
+#include "archive/survey.h"
 #include "archive/take_layers.h"
 #include "query/error_sketch.h"
 #include "reprise/archive.h"
@@ -26,14 +27,6 @@ namespace {
 constexpr std::size_t batch_bytes = 1u << 20;
 constexpr std::size_t batch_takes = 64;
 
-/// What the first look at a file says.
-struct Surveyed {
-  std::optional<RejectedInput> rejected;
-  bool skipped = false;
-  bool replaces = false;
-  TakeOutline outline;
-};
-
 struct CodedTake {
   std::optional<RejectedInput> rejected;
   bool kept = false;  ///< within its fidelity
@@ -45,19 +38,6 @@ std::size_t bytes_of_layers(const TakeRecord& record) {
   std::size_t bytes = 0;
   for (const LayerRecord& layer : record.layers) bytes += layer.data.size();
   return bytes;
-}
-
-/// Whether a stored take has what its row says of it; an empty subject says nothing.
-bool told_by(const TakeMetadata& row, const TakeInfo& stored) {
-  return (row.subject.empty() || row.subject == stored.subject) &&
-         row.description == stored.description && row.tags == stored.tags;
-}
-
-RejectedInput rejection(const InputFile& file, const Error& error) {
-  std::string why = error.reason();
-  if (!error.advice().empty()) why += "; " + error.advice();
-  const bool elsewhere = !error.place().file.empty() && error.place().file != file.path.string();
-  return {elsewhere ? error.place().file : file.path.string(), error.place().line, why};
 }
 
 class Ingest {
@@ -105,58 +85,17 @@ class Ingest {
     }
   }
 
-  /// Reads every file once: which are new, what their skeletons are, what moves in them.
   void survey() {
-    produce_in_order(
-        files_.size(), options_.jobs, [&](std::size_t i) { return survey_file(files_[i]); },
-        [&](std::size_t i, Surveyed surveyed) {
-          tick(files_[i].name);
-          if (!surveyed.rejected) decide(files_[i], surveyed);
-          if (surveyed.rejected) {
-            report_.rejected.push_back(*surveyed.rejected);
-          } else if (surveyed.skipped) {
-            report_.skipped.push_back(files_[i].name);
-          } else if (options_.dry_run) {
-            report_.added.push_back(files_[i].name);
-          } else {
-            fresh_.push_back({files_[i], std::move(surveyed.outline), surveyed.replaces});
-          }
-        });
-  }
-
-  Surveyed survey_file(const InputFile& file) const {
-    Surveyed surveyed;
-    try {
-      surveyed.outline = outline_take(file, options_.read);
-      const TakeMetadata* row = metadata_.find(file.name);
-      if (row != nullptr && !row->subject.empty()) surveyed.outline.subject = row->subject;
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
-      surveyed.rejected = rejection(file, error);
-    }
-    return surveyed;
-  }
-
-  void decide(const InputFile& file, Surveyed& surveyed) {
-    const std::optional<TakeRecord> stored = store_ ? store_->find_take(file.name) : std::nullopt;
-    if (!stored) return;
-    const bool same_source = stored->info.source_digest == surveyed.outline.source_digest;
-    const bool same_fidelity = stored->info.fidelity.tier == options_.fidelity.tier &&
-                               stored->info.fidelity.limit_mm == options_.fidelity.limit_mm;
-    const TakeMetadata* row = metadata_.find(file.name);
-    const bool same_metadata = row == nullptr || told_by(*row, stored->info);
-    if (same_source && ((same_fidelity && same_metadata) || !options_.replace)) {
-      surveyed.skipped = true;
-      if (!same_fidelity) report_.other_fidelity.push_back(file.name);
-      if (!same_metadata) report_.other_metadata.push_back(file.name);
-    } else if (options_.replace) {
-      surveyed.replaces = true;
+    Survey survey = survey_files(files_, options_, metadata_, store_ ? &*store_ : nullptr,
+                                 [&](const std::string& current) { tick(current); });
+    std::ranges::move(survey.rejected, std::back_inserter(report_.rejected));
+    report_.skipped = std::move(survey.skipped);
+    report_.other_fidelity = std::move(survey.other_fidelity);
+    report_.other_metadata = std::move(survey.other_metadata);
+    if (options_.dry_run) {
+      for (const FreshTake& fresh : survey.fresh) report_.added.push_back(fresh.file.name);
     } else {
-      surveyed.rejected = RejectedInput{file.path.string(), 0,
-                                        "a take '" + file.name +
-                                            "' with other content is stored already; --replace "
-                                            "replaces it, --prefix P gives the new "
-                                            "one another name"};
+      fresh_ = std::move(survey.fresh);
     }
   }
 

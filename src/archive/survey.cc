@@ -1,0 +1,90 @@
+#include "archive/survey.h"
+
+#include <optional>
+
+#include "archive/parallel.h"
+
+namespace reprise {
+namespace {
+
+/// What the first look at a file says.
+struct Surveyed {
+  std::optional<RejectedInput> rejected;
+  TakeOutline outline;
+};
+
+Surveyed look_at(const InputFile& file, const IngestOptions& options,
+                 const MetadataTable& metadata) {
+  Surveyed surveyed;
+  try {
+    surveyed.outline = outline_take(file, options.read);
+    const TakeMetadata* row = metadata.find(file.name);
+    if (row != nullptr && !row->subject.empty()) surveyed.outline.subject = row->subject;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
+    surveyed.rejected = rejection(file, error);
+  }
+  return surveyed;
+}
+
+/// Whether a stored take has what its row says of it; an empty subject says nothing.
+bool told_by(const TakeMetadata* row, const TakeInfo& stored) {
+  return row == nullptr || ((row->subject.empty() || row->subject == stored.subject) &&
+                            row->description == stored.description && row->tags == stored.tags);
+}
+
+/// Where a take of that name is stored already: what becomes of the file.
+void decide(const InputFile& file, TakeOutline outline, const TakeRecord& stored,
+            const IngestOptions& options, const MetadataTable& metadata, Survey& survey) {
+  const bool same_source = stored.info.source_digest == outline.source_digest;
+  const bool same_fidelity = stored.info.fidelity.tier == options.fidelity.tier &&
+                             stored.info.fidelity.limit_mm == options.fidelity.limit_mm;
+  const bool same_metadata = told_by(metadata.find(file.name), stored.info);
+  if (same_source && ((same_fidelity && same_metadata) || !options.replace)) {
+    survey.skipped.push_back(file.name);
+    if (!same_fidelity) survey.other_fidelity.push_back(file.name);
+    if (!same_metadata) survey.other_metadata.push_back(file.name);
+  } else if (options.replace) {
+    survey.fresh.push_back({file, std::move(outline), true});
+  } else {
+    survey.rejected.push_back({file.path.string(), 0,
+                               "a take '" + file.name +
+                                   "' with other content is stored already; --replace "
+                                   "replaces it, --prefix P gives the new "
+                                   "one another name"});
+  }
+}
+
+}  // namespace
+
+RejectedInput rejection(const InputFile& file, const Error& error) {
+  std::string why = error.reason();
+  if (!error.advice().empty()) why += "; " + error.advice();
+  const bool elsewhere = !error.place().file.empty() && error.place().file != file.path.string();
+  return {elsewhere ? error.place().file : file.path.string(), error.place().line, why};
+}
+
+Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& options,
+                    const MetadataTable& metadata, const ArchiveStore* store,
+                    const std::function<void(const std::string&)>& tick) {
+  Survey survey;
+  produce_in_order(
+      files.size(), options.jobs,
+      [&](std::size_t i) { return look_at(files[i], options, metadata); },
+      [&](std::size_t i, Surveyed surveyed) {
+        tick(files[i].name);
+        if (surveyed.rejected) {
+          survey.rejected.push_back(std::move(*surveyed.rejected));
+          return;
+        }
+        const auto stored = store != nullptr ? store->find_take(files[i].name) : std::nullopt;
+        if (stored) {
+          decide(files[i], std::move(surveyed.outline), *stored, options, metadata, survey);
+        } else {
+          survey.fresh.push_back({files[i], std::move(surveyed.outline), false});
+        }
+      });
+  return survey;
+}
+
+}  // namespace reprise
