@@ -165,7 +165,7 @@ struct IngestOptions {
   std::string prefix;                             ///< put before the names of this ingest, with '/'
   bool replace = false;
   bool dry_run = false;
-  bool contacts = true;  ///< feet are held where they stand, in the coarsest layer
+  bool contacts = true;  ///< feet are held where they stand
   bool repeats = true;   ///< false: each take is one unique clip without a behaviour group
 };
 

@@ -167,9 +167,9 @@ class Ingest {
                                          fit_options(options_));
       coded.kept = fitted.kept;
       if (!coded.kept) return coded;
-      coded.record = make_record(
-          fresh, take, assignment,
-          make_layers(options_.fidelity, *assignment.space, take, text, std::move(fitted)));
+      coded.record =
+          make_record(fresh, take, assignment,
+                      make_layers(options_, *assignment.space, take, text, std::move(fitted)));
       coded.clips = clips_of(fresh, take);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;

@@ -16,7 +16,8 @@ std::optional<double> bound_of(const Fidelity& fidelity) {
 
 class LayerMaker {
  public:
-  LayerMaker(const CodedSpace& space, const Take& take) : space_(space), take_(take) {}
+  LayerMaker(const CodedSpace& space, const Take& take, bool contacts)
+      : space_(space), take_(take), contacts_(contacts) {}
 
   void add_coefficients(FittedTake fitted, double mean_mm) {
     const TakeShape shape{take_.frames(), take_.frame_rate};
@@ -32,8 +33,10 @@ class LayerMaker {
   }
 
   void add_refinement(double bound_mm) {
-    Refinement refined = refine(take_, bound_mm);
-    add(LayerKind::refinement, bound_mm, "refinement", std::move(refined.bytes));
+    Refinement refined = refine(take_, {bound_mm, contacts_});
+    const std::size_t contacts = refined.contact_bytes, rest = refined.bytes.size() - contacts;
+    add(LayerKind::refinement, bound_mm, {{"refinement", rest}, {"contacts", contacts}},
+        std::move(refined.bytes));
     made_.distances = joint_distances(joint_positions(*take_.skeleton, take_.channels),
                                       joint_positions(*take_.skeleton, refined.decoded));
     made_.errors = summarise_distances(made_.distances);
@@ -56,25 +59,32 @@ class LayerMaker {
   }
   void add(LayerKind kind, double limit_mm,
            const std::vector<std::pair<std::string, std::uint64_t>>& parts, Bytes data) {
-    for (const auto& part : parts) {
-      if (part.second > 0) made_.spent.push_back(part);
+    for (const auto& [name, bytes] : parts) {
+      if (bytes == 0) continue;
+      const auto known = std::ranges::find(made_.spent, name, &TakeLayers::Part::first);
+      if (known != made_.spent.end()) {
+        known->second += bytes;
+      } else {
+        made_.spent.emplace_back(name, bytes);
+      }
     }
     made_.layers.push_back({kind, limit_mm, std::move(data)});
   }
 
   const CodedSpace& space_;
   const Take& take_;
+  bool contacts_;
   TakeLayers made_;
 };
 
 }  // namespace
 
-TakeLayers make_layers(const Fidelity& fidelity, const CodedSpace& space, const Take& take,
+TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
                        const std::string& text, FittedTake fitted) {
-  LayerMaker maker(space, take);
-  maker.add_coefficients(std::move(fitted), coarse_mean_mm(fidelity));
-  if (const auto bound = bound_of(fidelity)) maker.add_refinement(*bound);
-  if (fidelity.tier == FidelityTier::exact) maker.add_text(text);
+  LayerMaker maker(space, take, options.contacts);
+  maker.add_coefficients(std::move(fitted), coarse_mean_mm(options.fidelity));
+  if (const auto bound = bound_of(options.fidelity)) maker.add_refinement(*bound);
+  if (options.fidelity.tier == FidelityTier::exact) maker.add_text(text);
   return maker.finish();
 }
 

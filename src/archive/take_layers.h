@@ -13,13 +13,14 @@ namespace reprise {
 
 struct TakeLayers {
   std::vector<LayerRecord> layers;
-  std::vector<std::pair<std::string, std::uint64_t>> spent;  ///< TakeRecord::spent
-  PositionErrors errors;                                     ///< of the finest layer
+  using Part = std::pair<std::string, std::uint64_t>;
+  std::vector<Part> spent;       ///< TakeRecord::spent
+  PositionErrors errors;         ///< of the finest layer
   std::vector<float> distances;  ///< of the finest layer: frames x joints, mm, in no order
 };
 
 /// `fitted` is the take on its space; `text` the source file, which only `exact` stores.
-TakeLayers make_layers(const Fidelity& fidelity, const CodedSpace& space, const Take& take,
+TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
                        const std::string& text, FittedTake fitted);
 
 }  // namespace reprise

@@ -19,6 +19,10 @@ Vector3d cubic_between(const Vector3d& from, const Vector3d& from_slope, const V
          part * part * (3 - 2 * part) * to - part * part * rest * to_slope;
 }
 
+Index frames_of(double seconds, double rate) {
+  return std::max<Index>(1, std::lrint(std::min(seconds * rate, 1e9)));
+}
+
 /// How much of a contact is in force: 1 in it, less beside it; 0 where nothing changes.
 double fading(double part) { return 1 - part * part * (3 - 2 * part); }
 
@@ -51,12 +55,8 @@ class CorrectionMaker {
     double force = 0;
   };
 
-  Index frames_of(double seconds) const {
-    return std::max<Index>(1, std::lrint(std::min(seconds * rate_, 1e9)));
-  }
-
   void hold(const ContactInterval& contact) {
-    const Index half = frames_of(half_mean_s_);
+    const Index half = frames_of(half_mean_s_, rate_);
     for (Index f = contact.first; f < contact.end; ++f) {
       const Index from = std::max<Index>(contact.first, f - half);
       const Index to = std::min<Index>(contact.end, f + half + 1);
@@ -79,7 +79,7 @@ class CorrectionMaker {
 
   /// One curve between contacts that are near each other, else one from each of them to zero.
   void fill_gap(const ContactInterval* before, const ContactInterval* after) {
-    const Index fade = frames_of(ContactStageConstants::fade_s);
+    const Index fade = frames_of(ContactStageConstants::fade_s, rate_);
     if (before && after && after->first - before->end < 2 * fade) {
       curve(last_of(*before), first_of(*after));
       return;
@@ -113,11 +113,77 @@ class CorrectionMaker {
   ContactCorrection result_;
 };
 
+/// Weighted means of the places of a contact: in a window of w frames to both sides the place k
+/// frames away weighs w + 1 - |k|.
+class WindowMeans {
+ public:
+  /// Frames first .. end - 1 of `places`.
+  WindowMeans(const JointPath& places, Index first, Index end)
+      : first_(first),
+        origin_(places.col(first)),
+        sums_(3, end - first + 1),
+        moments_(3, end - first + 1) {
+    sums_.col(0).setZero();
+    moments_.col(0).setZero();
+    for (Index i = 0; i < end - first; ++i) {
+      // Not far from zero, so that differences of sums keep their digits.
+      const Vector3d place = places.col(first + i) - origin_;
+      sums_.col(i + 1) = sums_.col(i) + place;
+      moments_.col(i + 1) = moments_.col(i) + static_cast<double>(i) * place;
+    }
+  }
+
+  /// Around frame f, over the frames from .. to of the window, f among them.
+  Vector3d mean(Index f, Index window, Index from, Index to) const {
+    const Index at = f - first_, begin = from - first_, end = to - first_ + 1;
+    const auto centre = static_cast<double>(at), top = static_cast<double>(window + 1);
+    const Vector3d before = (top - centre) * (sums_.col(at + 1) - sums_.col(begin)) +
+                            (moments_.col(at + 1) - moments_.col(begin));
+    const Vector3d after = (top + centre) * (sums_.col(end) - sums_.col(at + 1)) -
+                           (moments_.col(end) - moments_.col(at + 1));
+    const auto left = static_cast<double>(at + 1 - begin);
+    const auto right = static_cast<double>(end - at - 1);
+    const double weight =
+        left * top - left * (left - 1) / 2 + right * top - right * (right + 1) / 2;
+    return origin_ + (before + after) / weight;
+  }
+
+ private:
+  Index first_;
+  Vector3d origin_;
+  JointPath sums_, moments_;
+};
+
 }  // namespace
 
 ContactCorrection correct_path(const JointPath& places, double frame_rate,
                                std::span<const ContactInterval> contacts, double half_mean_s) {
   return CorrectionMaker(places, frame_rate, half_mean_s).run(contacts);
+}
+
+ContactCorrection steady_path(const JointPath& places, double frame_rate,
+                              std::span<const ContactInterval> contacts, double half_window_s) {
+  const Index frames = places.cols();
+  const Index half = frames_of(half_window_s, frame_rate);
+  const Index settle = frames_of(ContactStageConstants::settle_s, frame_rate);
+  ContactCorrection result;
+  result.offset = JointPath::Zero(3, frames);
+  result.force.assign(static_cast<std::size_t>(frames), 0.0);
+  for (const ContactInterval& contact : contacts) {
+    const WindowMeans means(places, contact.first, contact.end);
+    for (Index f = contact.first; f < contact.end; ++f) {
+      Index inside = std::max(half, settle);  // frames to the nearer end that is not the take's
+      if (contact.first > 0) inside = std::min<Index>(inside, f - contact.first);
+      if (contact.end < frames) inside = std::min<Index>(inside, contact.end - 1 - f);
+      const Index window = std::min(half, inside);
+      const Index from = std::max<Index>(contact.first, f - window);
+      const Index to = std::min<Index>(contact.end - 1, f + window);
+      result.offset.col(f) = means.mean(f, window, from, to) - places.col(f);
+      const double part = std::min(1.0, static_cast<double>(inside) / static_cast<double>(settle));
+      result.force[static_cast<std::size_t>(f)] = fading(1 - part);
+    }
+  }
+  return result;
 }
 
 }  // namespace reprise

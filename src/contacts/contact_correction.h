@@ -23,4 +23,12 @@ struct ContactCorrection {
 ContactCorrection correct_path(const JointPath& places, double frame_rate,
                                std::span<const ContactInterval> contacts, double half_mean_s);
 
+/// In a contact the joint comes to a weighted mean of its places over up to `half_window_s` before
+/// and after, the nearer ones weighing more. The window is as wide as the nearer end of the contact
+/// allows, so that the offset goes to zero at both, except at an end of the take, where the window
+/// is cut. Force grows from 0 at a contact's ends over `ContactStageConstants::settle_s`; outside
+/// contacts nothing changes. `contacts` as above.
+ContactCorrection steady_path(const JointPath& places, double frame_rate,
+                              std::span<const ContactInterval> contacts, double half_window_s);
+
 }  // namespace reprise

@@ -35,7 +35,8 @@ struct TakeContacts {
   static constexpr int hold_bits = 2;
 
   std::vector<ContactInterval> intervals;  ///< as find_contacts gives them
-  int hold = 0;  ///< how still points stand: index of ContactStageConstants::half_means_s
+  /// How still points stand: index of ContactStageConstants::half_means_s, or half_windows_s.
+  int hold = 0;
 
   bool operator==(const TakeContacts&) const = default;
 };

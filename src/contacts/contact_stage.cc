@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include "contacts/contact_correction.h"
 #include "contacts/leg_chain.h"
@@ -21,31 +22,40 @@ std::vector<bool> moving_channels(const ChannelMatrix& channels) {
   return moves;
 }
 
+/// What is added to the places of a joint in the contacts of its point.
+using PathCorrector =
+    std::function<ContactCorrection(const JointPath&, std::span<const ContactInterval>)>;
+
 /// Holds the points of one leg during contacts.
 class LegHolder {
  public:
   LegHolder(LegChain& chain, const Leg& leg, ChannelMatrix& channels)
       : chain_(chain), leg_(leg), channels_(channels), places_(chain.point_joints().size()) {
-    for (JointPath& path : places_) path.resize(3, channels.rows());
+    for (JointPath& path : places_) path.setZero(3, channels.rows());
+  }
+
+  /// Of all frames; `hold` needs those in which something may change.
+  void place() { place(0, channels_.rows()); }
+  void place(Index first, Index end) {
     std::vector<Vector3d> at(places_.size());
-    for (Index f = 0; f < channels.rows(); ++f) {
+    for (Index f = first; f < end; ++f) {
       chain_.place(row(f), at);
       for (std::size_t j = 0; j < at.size(); ++j) places_[j].col(f) = at[j];
     }
   }
 
   /// `contacts[p]` are those of the leg's point p.
-  void hold(const std::vector<std::vector<ContactInterval>>& contacts, double frame_rate,
-            double half_mean_s) {
+  void hold(const std::vector<std::vector<ContactInterval>>& contacts, const PathCorrector& correct,
+            int rounds) {
     std::vector<ContactCorrection> own;
     for (std::size_t p = 0; p < leg_.points.size(); ++p) {
       for (std::size_t j = 0; j < leg_.points[p].size(); ++j) {
-        own.push_back(correct_path(places_[own.size()], frame_rate, contacts[p], half_mean_s));
+        own.push_back(correct(places_[own.size()], contacts[p]));
       }
     }
     std::vector<JointGoal> goals(own.size());
     for (Index f = 0; f < channels_.rows(); ++f) {
-      if (set_goals(own, f, goals)) chain_.reach(row(f), goals);
+      if (set_goals(own, f, goals)) chain_.reach(row(f), goals, rounds);
     }
   }
 
@@ -90,6 +100,35 @@ class LegHolder {
   std::vector<JointPath> places_;  // of each joint of the leg's points, as decoded
 };
 
+/// Contacts of the points of a leg, the first of which is point `first` of all.
+std::vector<std::vector<ContactInterval>> contacts_of(const Leg& leg, int first,
+                                                      const TakeContacts& contacts) {
+  std::vector<std::vector<ContactInterval>> own(leg.points.size());
+  for (const ContactInterval& contact : contacts.intervals) {
+    const int point = contact.point - first;
+    if (point >= 0 && point < static_cast<int>(own.size())) {
+      own[static_cast<std::size_t>(point)].push_back(contact);
+    }
+  }
+  return own;
+}
+
+/// `hold(holder, contacts)` for each leg that can turn and has contacts.
+template <class Hold>
+void hold_legs(const Skeleton& skeleton, std::span<const Leg> legs, const TakeContacts& contacts,
+               const std::vector<bool>& moves, ChannelMatrix& channels, const Hold& hold) {
+  int first = 0;
+  for (const Leg& leg : legs) {
+    const auto own = contacts_of(leg, first, contacts);
+    first += static_cast<int>(leg.points.size());
+    if (std::ranges::all_of(own, [](const auto& of_point) { return of_point.empty(); })) continue;
+    LegChain chain(skeleton, leg, moves);
+    if (!chain.can_turn()) continue;
+    LegHolder holder(chain, leg, channels);
+    hold(holder, own);
+  }
+}
+
 }  // namespace
 
 void apply_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
@@ -97,21 +136,35 @@ void apply_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double 
   if (contacts.intervals.empty() || channels.rows() == 0) return;
   const double half_mean_s =
       ContactStageConstants::half_means_s[static_cast<std::size_t>(contacts.hold)];
-  const std::vector<bool> moves = moving_channels(channels);
-  int point = 0;
-  for (const Leg& leg : legs) {
-    std::vector<std::vector<ContactInterval>> own(leg.points.size());
-    bool any = false;
-    for (std::vector<ContactInterval>& of_point : own) {
-      for (const ContactInterval& contact : contacts.intervals) {
-        if (contact.point == point) of_point.push_back(contact);
-      }
-      any = any || !of_point.empty();
-      ++point;
+  hold_legs(skeleton, legs, contacts, moving_channels(channels), channels,
+            [&](LegHolder& holder, const auto& own) {
+              holder.place();
+              holder.hold(
+                  own,
+                  [&](const JointPath& places, const auto& intervals) {
+                    return correct_path(places, frame_rate, intervals, half_mean_s);
+                  },
+                  LegChainConstants::rounds);
+            });
+}
+
+void steady_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
+                     const TakeContacts& contacts, const std::vector<bool>& moves,
+                     ChannelMatrix& channels) {
+  if (contacts.intervals.empty() || channels.rows() == 0) return;
+  const double half_window_s =
+      ContactStageConstants::half_windows_s[static_cast<std::size_t>(contacts.hold)];
+  hold_legs(skeleton, legs, contacts, moves, channels, [&](LegHolder& holder, const auto& own) {
+    for (const auto& of_point : own) {
+      for (const ContactInterval& contact : of_point) holder.place(contact.first, contact.end);
     }
-    LegChain chain(skeleton, leg, moves);
-    if (any && chain.can_turn()) LegHolder(chain, leg, channels).hold(own, frame_rate, half_mean_s);
-  }
+    holder.hold(
+        own,
+        [&](const JointPath& places, const auto& intervals) {
+          return steady_path(places, frame_rate, intervals, half_window_s);
+        },
+        LegChainConstants::rounds_nearby);
+  });
 }
 
 }  // namespace reprise

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "contacts/contact_detection.h"
 #include "reprise/model/take.h"
@@ -17,6 +18,12 @@ struct ContactStageConstants {
       0.25, 0.5, 1.0, std::numeric_limits<double>::infinity()};
   /// What a contact changes is let go over this long.
   static constexpr double fade_s = 0.1;
+  /// Where a bound holds, a point's path is smoothed over this long before and after instead; a
+  /// take has one of these.
+  static constexpr std::array<double, 1 << TakeContacts::hold_bits> half_windows_s = {0.05, 0.1,
+                                                                                      0.3, 2.0};
+  /// Smoothing is in full force this long after a contact begins and before it ends.
+  static constexpr double settle_s = 0.1;
   /// Weight of a point that does not stand, beside 1 of one that does.
   static constexpr double free_weight = 0.02;
 };
@@ -28,5 +35,12 @@ struct ContactStageConstants {
 /// them.
 void apply_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
                     const TakeContacts& contacts, ChannelMatrix& channels);
+
+/// The same for a motion that is within a few millimetres of its source, and changes it by less:
+/// points move as steadily as the source's in contacts, and nothing changes outside them. Only
+/// channels with `moves` turn (one a channel of a frame).
+void steady_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
+                     const TakeContacts& contacts, const std::vector<bool>& moves,
+                     ChannelMatrix& channels);
 
 }  // namespace reprise

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 
 namespace reprise {
@@ -116,14 +117,14 @@ double LegChain::pull(const JointGoal& goal, NormalEquations& turns) const {
   return goal.weight * way.squaredNorm();
 }
 
-void LegChain::reach(std::span<double> channels, std::span<const JointGoal> goals) {
+void LegChain::reach(std::span<double> channels, std::span<const JointGoal> goals, int rounds) {
   constexpr double stiffness = LegChainConstants::stiffness_mm * LegChainConstants::stiffness_mm;
   std::array<double, most_angles> start{}, turned{};
   for (std::size_t a = 0; a < angles_.size(); ++a) {
     start[a] = channels[static_cast<std::size_t>(angles_[a].channel)];
   }
   place_joints(0, channels);
-  for (int round = 0; round < LegChainConstants::rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     if (round > 0) place_joints(first_turning_, channels);
     // Least |J d - missing|^2 + stiffness |turned + d|^2: the pull back is to where the angles
     // began, so that nothing depends on the way there.
@@ -135,6 +136,7 @@ void LegChain::reach(std::span<double> channels, std::span<const JointGoal> goal
       turns.add(a, LegChainConstants::caution * missing, 0);
     }
     const std::array<double, most_angles> solution = turns.solve();
+    if (!std::ranges::all_of(solution, [](double turn) { return std::isfinite(turn); })) return;
     for (std::size_t a = 0; a < angles_.size(); ++a) {
       turned[a] += solution[a];
       channels[static_cast<std::size_t>(angles_[a].channel)] =

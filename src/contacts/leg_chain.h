@@ -22,6 +22,7 @@ struct LegChainConstants {
   /// Lawrence 1988 damp by the error, too.)
   static constexpr double caution = 0.25;
   static constexpr int rounds = 2;
+  static constexpr int rounds_nearby = 1;  ///< where goals are a few millimetres away
 };
 
 /// Where one joint should be (world, mm).
@@ -44,8 +45,8 @@ class LegChain {
 
   /// Turns the leg in a frame of channels (degrees) so that joints come to their goals as near as
   /// they can, with as little turning as that takes. What comes out depends smoothly on what goes
-  /// in.
-  void reach(std::span<double> channels, std::span<const JointGoal> goals);
+  /// in, and is as finite.
+  void reach(std::span<double> channels, std::span<const JointGoal> goals, int rounds);
 
  private:
   struct Angle {

@@ -259,6 +259,17 @@ void ChannelQuantiser::apply(std::size_t j, int slot, std::size_t place,
   }
 }
 
+PositionMatrix ChannelQuantiser::positions() const {
+  PositionMatrix result(take_.frames(), 3 * static_cast<Index>(bodies_.size()));
+  for (Index f = 0; f < take_.frames(); ++f) {
+    for (std::size_t j = 0; j < bodies_.size(); ++j) {
+      result.row(f).segment<3>(3 * static_cast<Index>(j)) =
+          bodies_[j].decoded[index(f)].position.transpose();
+    }
+  }
+  return result;
+}
+
 std::vector<double> ChannelQuantiser::shares(std::size_t joint, Index frame) const {
   std::vector<double> result(order_.size(), 0.0);
   const Vector3d direction = displacement(joint, frame).normalized();

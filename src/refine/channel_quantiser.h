@@ -27,6 +27,9 @@ class ChannelQuantiser {
            bodies_[joint].source[index(frame)].position;
   }
 
+  /// After `quantise`: where all joints came to be, frames x 3*joints (mm).
+  PositionMatrix positions() const;
+
   /// After `quantise`: how much of a joint's displacement in a frame, along the displacement, the
   /// rounding of each channel that moves it brought in; zero for other channels.
   std::vector<double> shares(std::size_t joint, Eigen::Index frame) const;

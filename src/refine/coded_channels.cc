@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "contacts/contact_stage.h"
 #include "quant/catmull_rom.h"
+#include "quant/contact_codec.h"
 #include "refine/pose_metric.h"
 #include "reprise/error.h"
 
@@ -31,6 +33,8 @@ TimeScales time_scales(const TakeShape& take, double seconds) {
 
 CodedChannels::CodedChannels(const Skeleton& skeleton, const TakeShape& take, TimeScales time)
     : scales(time),
+      frame_rate(take.frame_rate),
+      legs(find_legs(skeleton)),
       shape{take.frames, time.levels, first_level_of(take.frame_rate), coding_parents(skeleton)},
       steps(skeleton, take.frames, time.block_levels),
       knots(ChannelKnots::Zero(take.frames, static_cast<Index>(shape.parents.size()))),
@@ -54,7 +58,26 @@ ChannelMatrix CodedChannels::channels(const Skeleton& skeleton) const {
   ChannelMatrix result(shape.frames, skeleton.channel_count);
   const std::vector<int> order = coding_order(skeleton);
   for (std::size_t i = 0; i < order.size(); ++i) result.col(order[i]) = trajectory(i);
+  hold_feet(skeleton, result);
   return result;
+}
+
+void CodedChannels::hold_feet(const Skeleton& skeleton, ChannelMatrix& channels) const {
+  if (contacts.intervals.empty()) return;
+  steady_contacts(skeleton, legs, frame_rate, contacts, moving_channels(skeleton), channels);
+}
+
+std::vector<bool> CodedChannels::moving_channels(const Skeleton& skeleton) const {
+  // By what is stored, since decoded numbers that are meant to be the same may not be.
+  const std::vector<int> order = coding_order(skeleton);
+  std::vector<bool> moves(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto column = static_cast<Index>(i);
+    moves[static_cast<std::size_t>(order[i])] =
+        steps.base[i] < 0 ? (stored.col(column).array() != stored(0, column)).any()
+                          : (knots.col(column).tail(shape.frames - 1).array() != 0).any();
+  }
+  return moves;
 }
 
 std::vector<std::uint8_t> CodedChannels::encode() const {
@@ -71,7 +94,15 @@ std::vector<std::uint8_t> CodedChannels::encode() const {
     }
   }
   ChannelCoder().encode(encoder, shape, steps, knots);
+  encode_contacts(encoder, contact_shape(legs, shape.frames, frame_rate), contacts);
   return encoder.finish();
+}
+
+std::size_t CodedChannels::contact_bytes() const {
+  if (contacts.intervals.empty()) return 0;
+  RangeEncoder encoder;
+  encode_contacts(encoder, contact_shape(legs, shape.frames, frame_rate), contacts);
+  return encoder.finish().size();
 }
 
 CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& take,
@@ -97,6 +128,9 @@ CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& t
     }
   }
   coded.knots = ChannelCoder().decode(decoder, shape, coded.steps);
+  if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+  coded.contacts =
+      decode_contacts(decoder, contact_shape(coded.legs, shape.frames, coded.frame_rate));
   if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
   return coded;
 }

@@ -1,4 +1,4 @@
-// What a refinement's bytes say: channels as rounded knots.
+// What a refinement's bytes say: channels as rounded knots, and when feet stand.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "contacts/contact_detection.h"
 #include "refine/channel_coder.h"
 #include "refine/step_grid.h"
 #include "reprise/model/take.h"
@@ -29,16 +30,26 @@ struct CodedChannels {
   static CodedChannels decode(const Skeleton& skeleton, const TakeShape& take,
                               std::span<const std::uint8_t> bytes);
 
-  /// Frames of the channel at a place of the coding order, decoded.
+  /// Frames of the channel at a place of the coding order, decoded; contacts change it yet.
   Eigen::VectorXd trajectory(std::size_t place) const;
+  /// All channels, with feet that stand in contacts.
   ChannelMatrix channels(const Skeleton& skeleton) const;
+  /// Puts feet where they stand in `contacts`: the last step of decoding.
+  void hold_feet(const Skeleton& skeleton, ChannelMatrix& channels) const;
+  /// One a channel of a frame: its numbers say more than one value for all frames.
+  std::vector<bool> moving_channels(const Skeleton& skeleton) const;
   std::vector<std::uint8_t> encode() const;
+  /// About as many bytes as contacts take up of those of `encode`.
+  std::size_t contact_bytes() const;
 
   TimeScales scales;
+  double frame_rate;
+  std::vector<Leg> legs;
   ChannelKnotShape shape;
   StepGrid steps;
   ChannelKnots knots;      ///< the coarsest ones are differences from the one before
   Eigen::MatrixXd stored;  ///< columns of the channels that are stored as they are
+  TakeContacts contacts;   ///< of `legs`
 };
 
 }  // namespace reprise

@@ -8,7 +8,9 @@
 
 namespace reprise {
 
-Refinement refine(const Take& take, double bound_mm) { return Refiner(take, bound_mm).run(); }
+Refinement refine(const Take& take, const RefinementOptions& options) {
+  return Refiner(take, options).run();
+}
 
 ChannelMatrix decode_refinement(const Skeleton& skeleton, const TakeShape& shape,
                                 std::span<const std::uint8_t> bytes) {

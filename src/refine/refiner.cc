@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine/contact_fit.h"
+
 namespace reprise {
 namespace {
 
@@ -13,6 +15,8 @@ using Eigen::Index;
 constexpr int stubborn_pass = 10;
 constexpr double stubborn_share = 0.2;
 constexpr int most_passes = 40;
+/// From this pass on, contacts end where they are still off.
+constexpr int cutting_pass = 6;
 /// Half octaves by which a stretch may be finer than the one that reaches into its misses.
 constexpr int most_apart = 3;
 /// Seconds between the coarsest knots, of which the better one is taken.
@@ -23,14 +27,14 @@ constexpr double starts[] = {2.4, 3.4};
 constexpr double rounding_mm = 0.001, rounding_part = 0.001;
 }  // namespace
 
-Refiner::Refiner(const Take& take, double bound_mm)
+Refiner::Refiner(const Take& take, const RefinementOptions& options)
     : take_(take),
-      bound_(bound_mm * (1 - rounding_part) - rounding_mm),
+      contacts_(options.contacts),
+      bound_(options.bound_mm * (1 - rounding_part) - rounding_mm),
       positions_(joint_positions(*take.skeleton, take.channels)),
-      quantiser_(take, bound_mm) {}
+      quantiser_(take, options.bound_mm) {}
 
-double Refiner::worst_distance(const ChannelMatrix& decoded) const {
-  const PositionMatrix reached = joint_positions(*take_.skeleton, decoded);
+double Refiner::worst_distance(const PositionMatrix& reached) const {
   double worst = 0;
   for (Index f = 0; f < reached.rows(); ++f) {
     for (Index j = 0; j < reached.cols(); j += 3) {
@@ -42,7 +46,8 @@ double Refiner::worst_distance(const ChannelMatrix& decoded) const {
   return std::sqrt(worst);
 }
 
-bool Refiner::adapt(StepGrid& steps, bool stubborn) const {
+template <class Displacement>
+bool Refiner::adapt(StepGrid& steps, bool stubborn, const Displacement& displacement) const {
   const double limit = bound_ * bound_;
   auto finer = steps.offsets;
   finer.setZero();
@@ -53,7 +58,7 @@ bool Refiner::adapt(StepGrid& steps, bool stubborn) const {
       Index worst = f;
       double most_squared = 0;
       for (; f < take_.frames() && steps.block(f) == b; ++f) {
-        const double squared = quantiser_.displacement(j, f).squaredNorm();
+        const double squared = displacement(j, f).squaredNorm();
         if (squared <= most_squared) continue;
         most_squared = squared;
         worst = f;
@@ -87,49 +92,85 @@ bool Refiner::adapt(StepGrid& steps, bool stubborn) const {
   return missed;
 }
 
-Refinement Refiner::search(double step_mm, TimeScales scales) {
-  Refinement result;
-  CodedChannels coded(*take_.skeleton, shape(), scales);
-  quantiser_.set_steps(step_mm, coded.steps);
+Refiner::Candidate Refiner::search(double step_mm, TimeScales scales) {
+  Candidate result{CodedChannels(*take_.skeleton, shape(), scales), {}};
+  quantiser_.set_steps(step_mm, result.coded.steps);
+  const auto displacement = [&](std::size_t j, Index f) { return quantiser_.displacement(j, f); };
   for (int pass = 0; pass < most_passes; ++pass) {
-    result.decoded = quantiser_.quantise(coded);
-    if (adapt(coded.steps, pass >= stubborn_pass)) continue;
-    result.max_mm = worst_distance(result.decoded);
-    if (result.max_mm <= bound_) result.bytes = coded.encode();
+    result.refinement.decoded = quantiser_.quantise(result.coded);
+    if (adapt(result.coded.steps, pass >= stubborn_pass, displacement)) continue;
+    finish(result);
     break;
   }
   return result;
 }
 
-Refinement Refiner::run() {
-  const auto better = [](const Refinement& a, const Refinement& b) {
-    return !a.bytes.empty() && (b.bytes.empty() || a.bytes.size() < b.bytes.size());
+void Refiner::finish(Candidate& candidate) const {
+  Refinement& refinement = candidate.refinement;
+  refinement.max_mm = worst_distance(joint_positions(*take_.skeleton, refinement.decoded));
+  if (!(refinement.max_mm <= bound_)) return;
+  refinement.bytes = candidate.coded.encode();
+  refinement.contact_bytes = std::min(refinement.bytes.size(), candidate.coded.contact_bytes());
+}
+
+Refiner::Candidate Refiner::best_search() {
+  const auto better = [](const Candidate& a, const Candidate& b) {
+    const auto &own = a.refinement.bytes, &other = b.refinement.bytes;
+    return !own.empty() && (other.empty() || own.size() < other.size());
   };
-  Refinement best;
-  TimeScales best_scales = time_scales(shape(), spans_s[0]);
-  for (const double span : spans_s) {
-    const TimeScales scales = time_scales(shape(), span);
-    if (span != spans_s[0] && scales.levels == best_scales.levels) continue;
-    Refinement found = search(bound_ * starts[0], scales);
+  TimeScales scales = time_scales(shape(), spans_s[0]);
+  Candidate best = search(bound_ * starts[0], scales);
+  for (const double span : std::span(spans_s).subspan(1)) {
+    const TimeScales other = time_scales(shape(), span);
+    if (other.levels == scales.levels) continue;
+    Candidate found = search(bound_ * starts[0], other);
     if (!better(found, best)) continue;
     best = std::move(found);
-    best_scales = scales;
+    scales = other;
   }
   for (const double part : std::span(starts).subspan(1)) {
-    Refinement found = search(bound_ * part, best_scales);
+    Candidate found = search(bound_ * part, scales);
     if (better(found, best)) best = std::move(found);
   }
-  for (double step = bound_; best.bytes.empty() && step > bound_ / 1e4; step /= 2) {
-    best = search(step, best_scales);
+  for (double step = bound_; best.refinement.bytes.empty() && step > bound_ / 1e4; step /= 2) {
+    best = search(step, scales);
   }
-  if (best.bytes.empty()) {
-    CodedChannels coded(*take_.skeleton, shape(), best_scales);
-    std::fill(coded.steps.base.begin(), coded.steps.base.end(), -1);
-    best.decoded = quantiser_.quantise(coded);
-    best.bytes = coded.encode();
-    best.max_mm = worst_distance(best.decoded);
+  if (best.refinement.bytes.empty()) {
+    best.coded = CodedChannels(*take_.skeleton, shape(), scales);
+    std::fill(best.coded.steps.base.begin(), best.coded.steps.base.end(), -1);
+    best.refinement.decoded = quantiser_.quantise(best.coded);
+    finish(best);
+    best.refinement.bytes = best.coded.encode();
   }
   return best;
+}
+
+void Refiner::hold_feet(Candidate& best) {
+  const ContactFit fit(take_, positions_, bound_, best.coded, best.refinement);
+  Candidate held{best.coded, {}};
+  CodedChannels& coded = held.coded;
+  coded.contacts = fit.choose();
+  for (int pass = 0; pass < most_passes && !coded.contacts.intervals.empty(); ++pass) {
+    held.refinement.decoded = quantiser_.quantise(coded);
+    PositionMatrix reached = quantiser_.positions();
+    fit.hold(coded, held.refinement.decoded, reached);
+    const auto displacement = [&](std::size_t j, Index f) -> Eigen::Vector3d {
+      const auto at = 3 * static_cast<Index>(j);
+      return reached.row(f).segment<3>(at) - positions_.row(f).segment<3>(at);
+    };
+    if (pass >= cutting_pass && fit.cut(reached, bound_, coded.contacts)) continue;
+    if (adapt(coded.steps, pass >= stubborn_pass, displacement)) continue;
+    finish(held);
+    const std::size_t bytes = held.refinement.bytes.size();
+    if (bytes > 0 && fit.pays(reached, bytes)) best = std::move(held);
+    return;
+  }
+}
+
+Refinement Refiner::run() {
+  Candidate best = best_search();
+  if (contacts_) hold_feet(best);
+  return std::move(best.refinement);
 }
 
 }  // namespace reprise

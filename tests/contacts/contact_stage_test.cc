@@ -126,6 +126,63 @@ TEST_P(ContactStage, AnglesThatNeverMoveStay) {
   EXPECT_EQ(held({{{0, 60, 150}}, whole_contact}), plain_);
 }
 
+TEST_P(ContactStage, SteadyFeetMoveLessAndNothingElseDoes) {
+  // A foot that shakes, by 2 degrees of its hip.
+  const int hip = legs_.at(0).joints.front();
+  const Joint& joint = skeleton_->joints[static_cast<std::size_t>(hip)];
+  const Eigen::Index angle = joint.first_channel + joint.rotation_slots.front();
+  for (long f = 0; f < frames; ++f) plain_(f, angle) += std::sin(0.4 * static_cast<double>(f));
+  ChannelMatrix channels = plain_;
+  const std::vector<bool> all(static_cast<std::size_t>(plain_.cols()), true);
+  const TakeContacts contacts{{{0, 60, 150}}, 2};
+  steady_contacts(*skeleton_, legs_, rate, contacts, all, channels);
+  const int foot = legs_[0].points[0][0];
+  const auto shaking = [&](const ChannelMatrix& of) {
+    const Eigen::MatrixX3d places = path(of, foot).middleRows(70, 70);
+    return (places.topRows(68) - 2 * places.middleRows(1, 68) + places.bottomRows(68))
+        .rowwise()
+        .norm()
+        .mean();
+  };
+  EXPECT_LT(shaking(channels), shaking(plain_) / 3);
+  EXPECT_EQ(channels.topRows(61), plain_.topRows(61));
+  EXPECT_EQ(channels.bottomRows(frames - 149), plain_.bottomRows(frames - 149));
+  // No step where a contact begins and ends.
+  const Eigen::MatrixX3d moved = path(channels, foot) - path(plain_, foot);
+  EXPECT_LT(moved.row(61).norm(), moved.rowwise().norm().maxCoeff() / 5);
+  EXPECT_LT(moved.row(148).norm(), moved.rowwise().norm().maxCoeff() / 5);
+  std::vector<bool> none(all.size(), false);
+  ChannelMatrix still = plain_;
+  steady_contacts(*skeleton_, legs_, rate, contacts, none, still);
+  EXPECT_EQ(still, plain_);
+}
+
+TEST_P(ContactStage, SteadyFeetMoveAtTheEndsOfATakeAndFollowAStraightPath) {
+  // All moves on at one speed: nothing is to be smoothed but at the take's own ends.
+  plain_.rowwise() = plain_.row(0).eval();
+  for (long f = 0; f < frames; ++f) plain_(f, 0) += static_cast<double>(f) / 100;
+  ChannelMatrix channels = plain_;
+  const std::vector<bool> all(static_cast<std::size_t>(plain_.cols()), true);
+  for (int hold = 0; hold < 1 << TakeContacts::hold_bits; ++hold) {
+    steady_contacts(*skeleton_, legs_, rate, {{{0, 60, 150}}, hold}, all, channels);
+    EXPECT_LT((channels - plain_).cwiseAbs().maxCoeff(), 1e-6);
+  }
+  steady_contacts(*skeleton_, legs_, rate, {{{0, 0, frames}}, 1}, all, channels);
+  const int foot = legs_[0].points[0][0];
+  EXPECT_GT((path(channels, foot) - path(plain_, foot)).row(0).norm(), 0.1);
+}
+
+TEST_P(ContactStage, HugeNumbersStayFinite) {
+  for (const double huge : {1e30, 1e160, 1e300}) {
+    ChannelMatrix wild = plain_ * huge, held = wild;
+    const std::vector<bool> all(static_cast<std::size_t>(wild.cols()), true);
+    steady_contacts(*skeleton_, legs_, rate, {{{0, 0, frames}}, 1}, all, wild);
+    EXPECT_TRUE(wild.allFinite());
+    apply_contacts(*skeleton_, legs_, rate, {{{0, 60, 150}}, 1}, held);
+    EXPECT_TRUE(held.allFinite());
+  }
+}
+
 TEST_P(ContactStage, AreChosenAsStillAsTheSourceAndNotWhereTheyAreNotNeeded) {
   TakeContacts all{{}, whole_contact};
   for (int p = 0; p < count_points(legs_); ++p) all.intervals.push_back({p, 0, frames});

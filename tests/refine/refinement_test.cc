@@ -30,7 +30,7 @@ double worst_distance(const Take& take, const ChannelMatrix& channels) {
 
 /// Refines, decodes, writes the take as text and reads it: within the bound everywhere.
 std::size_t expect_bound(const Take& take, double bound_mm) {
-  const Refinement refinement = refine(take, bound_mm);
+  const Refinement refinement = refine(take, {bound_mm});
   const ChannelMatrix decoded = decode_refinement(*take.skeleton, shape_of(take), refinement.bytes);
   EXPECT_TRUE(decoded == refinement.decoded) << "decoding gives something else";
   EXPECT_LE(refinement.max_mm, bound_mm);
@@ -94,7 +94,7 @@ TEST_P(Refinements, StandingStillCostsNothing) {
 
 TEST_P(Refinements, HostileBytesAreDamageOrMotion) {
   const Take take = synthetic_take(GetParam(), 1);
-  const Refinement refinement = refine(take, 10);
+  const Refinement refinement = refine(take, {10});
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
     auto bytes = refinement.bytes;
@@ -111,6 +111,33 @@ TEST_P(Refinements, HostileBytesAreDamageOrMotion) {
       EXPECT_EQ(error.code(), ErrorCode::damaged);
     }
   }
+}
+
+TEST(RefinementContacts, FeetSlideAsTheSourcesWithinTheBound) {
+  SynthOptions options;
+  options.takes = 3;
+  options.seconds = 3;
+  int held = 0;
+  for (const Take& take : make_synthetic_library(options).takes) {
+    const PositionMatrix source = joint_positions(*take.skeleton, take.channels);
+    const auto part_of_sources = [&](const ChannelMatrix& channels) {
+      const auto skate = foot_skate(*take.skeleton, source,
+                                    joint_positions(*take.skeleton, channels), take.frame_rate);
+      return skate->decoded / skate->original;
+    };
+    const Refinement with = refine(take, {10, true});
+    const Refinement without = refine(take, {10, false});
+    EXPECT_EQ(without.contact_bytes, 0);
+    EXPECT_LE(part_of_sources(with.decoded), 1.1);
+    EXPECT_LE(with.max_mm, 10);
+    EXPECT_LT(static_cast<double>(with.bytes.size()),
+              1.1 * static_cast<double>(without.bytes.size()));
+    if (with.contact_bytes == 0) continue;
+    ++held;
+    EXPECT_GT(part_of_sources(without.decoded), part_of_sources(with.decoded));
+    EXPECT_TRUE(decode_refinement(*take.skeleton, shape_of(take), with.bytes) == with.decoded);
+  }
+  EXPECT_GT(held, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Refinements,
