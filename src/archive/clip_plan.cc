@@ -19,6 +19,7 @@ RepeatConstants repeat_constants(const ClipPlanConstants& plan) {
   constants.rate = plan.rate;
   constants.least_clip_s = plan.least_clip_s;
   constants.explained_cover = plan.explained_cover;
+  constants.explained_times = 1;
   constants.across_subjects = plan.across_subjects;
   return constants;
 }
@@ -93,6 +94,7 @@ class SkeletonPlanner {
     NearWindowConstants windows;
     windows.neighbours = constants_.neighbours;
     windows.hop_s = constants_.hop_s;
+    windows.excess = 1;
     const auto pairs = find_near_pairs(library_, repeats_, std::nullopt, jobs_, windows);
     const std::vector<ChosenClip> standing = standing_clips();
     const long least = std::lround(constants_.least_clip_s * constants_.rate);

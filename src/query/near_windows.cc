@@ -63,6 +63,13 @@ Eigen::MatrixXf leading_axes(const PointMatrix& points, int count) {
   return solved.vectors.rightCols(std::min<Eigen::Index>(count, products.cols())).cast<float>();
 }
 
+/// The windows that one looks at, nearest first: at most as many as are asked for.
+std::vector<Neighbour> near_windows(const WindowIndex& index, std::span<const float> point,
+                                    std::size_t neighbours, float most_mm, double excess) {
+  return excess > 1 ? index.nearly_nearest(point, neighbours, most_mm, excess)
+                    : index.nearest(point, neighbours);
+}
+
 struct RankedPair {
   NearPair pair;
   float squared_distance;
@@ -103,6 +110,10 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
   if (own.windows.size() < 2) return {};
   const Eigen::MatrixXf axes = leading_axes(own.points, constants.dimensions);
   const WindowIndex index(PointMatrix(own.points * axes));
+  const std::size_t neighbours =
+      only_take ? constants.neighbours_of_one_take : constants.neighbours;
+  const float across_mm = std::max(1.0F, repeats.across_subjects) * constants.most_mm;
+  const float greatest_mm = library.subjects.empty() ? constants.most_mm : across_mm;
   std::vector<RankedPair> ranked;
   for (const double tempo : tempos) {
     const double asked_span = span / tempo, least_lag = std::max(span, asked_span);
@@ -114,7 +125,8 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
       for (std::size_t w = b * block; w < std::min(count, (b + 1) * block); ++w) {
         const std::span<const float> point(points.row(static_cast<long>(w)).data(),
                                            static_cast<std::size_t>(points.cols()));
-        for (const Neighbour& near : index.nearest(point, constants.neighbours)) {
+        for (const Neighbour& near :
+             near_windows(index, point, neighbours, greatest_mm, constants.excess)) {
           const Window& window = asked.windows[w];
           const Window& other = own.windows[near.point];
           const float most = library.of_one_subject(window.take, other.take)

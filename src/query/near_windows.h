@@ -17,8 +17,12 @@ struct NearWindowConstants {
   int postures = 5;
   /// Numbers of a window that are kept, on principal axes of all windows.
   int dimensions = 12;
-  /// A window looks for this many others of each speed.
-  std::size_t neighbours = 24;
+  /// A window looks for this many others of each speed; for more where those of one take alone are
+  /// asked for, as no others find it then.
+  std::size_t neighbours = 8;
+  std::size_t neighbours_of_one_take = 24;
+  /// They may be this many times as far as those that are nearest (WindowIndex::nearly_nearest).
+  double excess = 2;
   /// and no further than this: root mean square joint distance, mm.
   float most_mm = 70;
 };

@@ -41,6 +41,31 @@ void keep_nearest(std::vector<Neighbour>& neighbours, std::size_t count) {
   neighbours.resize(kept);
 }
 
+/// Collects the `count` nearest within a squared distance.
+class NearestWithin final : public flann::ResultSet<float> {
+ public:
+  NearestWithin(std::size_t count, float squared) : count_(count), worst_(squared) {
+    found_.reserve(count);
+  }
+
+  bool full() const override { return true; }  // never look further than worstDist
+  float worstDist() const override { return worst_; }
+  void addPoint(float squared, std::size_t point) override {
+    if (!(squared < worst_)) return;
+    const std::pair<float, std::size_t> entry(squared, point);
+    if (found_.size() == count_) found_.pop_back();
+    found_.insert(std::upper_bound(found_.begin(), found_.end(), entry), entry);
+    if (found_.size() == count_) worst_ = found_.back().first;
+  }
+
+  const std::vector<std::pair<float, std::size_t>>& found() const { return found_; }
+
+ private:
+  std::size_t count_;
+  float worst_;
+  std::vector<std::pair<float, std::size_t>> found_;
+};
+
 }  // namespace
 
 struct WindowIndex::Tree {
@@ -102,6 +127,24 @@ std::vector<Neighbour> WindowIndex::nearest(std::span<const float> query, std::s
   std::vector<Neighbour> neighbours =
       tree_->candidates(points_, query, tree_->reach_of(query, count));
   keep_nearest(neighbours, count);
+  return neighbours;
+}
+
+std::vector<Neighbour> WindowIndex::nearly_nearest(std::span<const float> query, std::size_t count,
+                                                   double most, double excess) const {
+  assert(static_cast<long>(query.size()) == points_.cols());
+  assert(excess >= 1);
+  if (!tree_ || count == 0 || !(most >= 0)) return {};
+  NearestWithin set(count, static_cast<float>(most * most));
+  tree_->index.findNeighbors(
+      set, query.data(),
+      flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, static_cast<float>(excess * excess - 1)));
+  std::vector<Neighbour> neighbours;
+  for (const auto& [squared, point] : set.found()) {
+    const float* const place = points_.row(static_cast<long>(point)).data();
+    neighbours.push_back({static_cast<std::uint32_t>(point), squared_distance(query, place)});
+  }
+  std::sort(neighbours.begin(), neighbours.end());
   return neighbours;
 }
 

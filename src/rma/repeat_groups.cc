@@ -35,7 +35,7 @@ class GroupFinder {
         near_(library.takes()),
         members_(library.takes()) {
     for (const PostureMatrix& take : library.postures) {
-      covered_.emplace_back(static_cast<std::size_t>(take.rows()), false);
+      times_told_.emplace_back(static_cast<std::size_t>(take.rows()), 0);
     }
     for (const NearPair& pair : near_pairs) {
       near_[pair.take].push_back(pair);
@@ -63,14 +63,15 @@ class GroupFinder {
  private:
   void add_explained(const Occurrence& member) {
     members_[member.take].push_back({member.begin, member.end});
-    std::vector<bool>& covered = covered_[member.take];
-    std::fill(covered.begin() + member.begin, covered.begin() + member.end, true);
+    const auto told = times_told_[member.take].begin();
+    std::for_each(told + member.begin, told + member.end, [](int& times) { ++times; });
   }
 
   bool is_explained(const ClipExtent& extent) const {
-    const std::vector<bool>& covered = covered_[extent.take];
-    const auto known =
-        std::count(covered.begin() + extent.begin, covered.begin() + extent.end, true);
+    const auto told = times_told_[extent.take].begin();
+    const auto known = std::count_if(told + extent.begin, told + extent.end, [&](int times) {
+      return times >= constants_.explained_times;
+    });
     if (static_cast<double>(known) >=
         constants_.explained_cover * static_cast<double>(extent.end - extent.begin)) {
       return true;
@@ -104,7 +105,7 @@ class GroupFinder {
   unsigned jobs_;
   std::vector<std::vector<NearPair>> near_;                  ///< by take, each pair from both sides
   std::vector<std::vector<std::pair<long, long>>> members_;  ///< of all groups, by take
-  std::vector<std::vector<bool>> covered_;                   ///< samples of all groups, by take
+  std::vector<std::vector<int>> times_told_;  ///< of each sample: in how many groups it is
 };
 
 bool moves(const PostureView& clip, const RepeatConstants& constants) {

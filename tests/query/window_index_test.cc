@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <thread>
 
@@ -66,11 +67,48 @@ TEST(WindowIndex, FindsThePointItself) {
   }
 }
 
+TEST(WindowIndex, NearlyNearestAreNoFurtherThanTheExcess) {
+  constexpr std::size_t count = 8;
+  const PointMatrix points = smooth_points(3000, 6, 11), queries = smooth_points(40, 6, 12);
+  const WindowIndex index(points);
+  for (long q = 0; q < queries.rows(); ++q) {
+    const auto nearest = index.nearest(row(queries, q), count);
+    EXPECT_EQ(index.nearly_nearest(row(queries, q), count, 1e6, 1), nearest);
+    for (const double excess : {1.5, 3.0}) {
+      const auto nearly = index.nearly_nearest(row(queries, q), count, 1e6, excess);
+      ASSERT_EQ(nearly.size(), count);
+      EXPECT_TRUE(std::is_sorted(nearly.begin(), nearly.end()));
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_LE(std::sqrt(nearly[i].squared_distance),
+                  1.001 * excess * std::sqrt(nearest[i].squared_distance));
+      }
+    }
+  }
+}
+
+TEST(WindowIndex, NearlyNearestAreWithinTheDistance) {
+  const PointMatrix points = smooth_points(3000, 6, 13), queries = smooth_points(40, 6, 14);
+  const WindowIndex index(points);
+  std::size_t found = 0;
+  for (long q = 0; q < queries.rows(); ++q) {
+    constexpr double most = 150, excess = 2;
+    const auto all = index.within(row(queries, q), most);
+    const auto nearly = index.nearly_nearest(row(queries, q), 5000, most, excess);
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), nearly.begin(), nearly.end()));
+    for (const Neighbour& sure : index.within(row(queries, q), 0.999 * most / excess)) {
+      EXPECT_TRUE(std::binary_search(nearly.begin(), nearly.end(), sure));
+    }
+    found += nearly.size();
+  }
+  EXPECT_GT(found, 0u);
+}
+
 TEST(WindowIndex, WithoutPointsThereIsNothingNear) {
   const WindowIndex index(PointMatrix(0, 5));
   const std::vector<float> query(5, 0.0f);
   EXPECT_TRUE(index.nearest(query, 3).empty());
   EXPECT_TRUE(index.within(query, 1e9).empty());
+  EXPECT_TRUE(index.nearly_nearest(query, 3, 1e9, 2).empty());
 }
 
 TEST(WindowIndex, OtherIndicesAndThreadsChangeNothing) {

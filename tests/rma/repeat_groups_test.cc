@@ -64,6 +64,37 @@ TEST(RepeatGroups, OfOneTakeHaveTheirReferenceInIt) {
   EXPECT_TRUE(holds(groups[0], 0, 45, 75));
 }
 
+TEST(RepeatGroups, ReferencesAreNotInManyGroups) {
+  // One motion over and over: every window is near to every other one.
+  std::vector<PostureMatrix> takes;
+  for (int take = 0; take < 4; ++take) {
+    takes.push_back(joined({made_up_take(1, 0, 3), made_up_take(1, 0, 3), made_up_take(1, 0, 3)}));
+  }
+  const PostureLibrary library(std::move(takes), constants);
+  const auto pairs = find_near_pairs(library, constants);
+  std::vector<std::vector<int>> times(library.takes(), std::vector<int>(200, 0));
+  for (const RepeatGroup& group : find_repeat_groups(library, pairs, std::nullopt, constants)) {
+    const auto told = [&](const Occurrence& o, int least) {
+      const auto at = times[o.take].begin();
+      return std::count_if(at + o.begin, at + o.end, [&](int t) { return t >= least; });
+    };
+    // A group around the clip or around what is like it.
+    EXPECT_TRUE(std::ranges::any_of(group.occurrences, [&](const Occurrence& o) {
+      return static_cast<double>(told(o, constants.explained_times)) <
+             constants.explained_cover * static_cast<double>(o.end - o.begin);
+    }));
+    for (const Occurrence& o : group.occurrences) {
+      for (long s = o.begin; s < o.end; ++s) ++times[o.take][static_cast<std::size_t>(s)];
+    }
+  }
+  EXPECT_TRUE(std::ranges::any_of(times[0], [](int t) { return t > 0; }));
+
+  RepeatConstants unlimited;
+  unlimited.explained_cover = 2;
+  const auto all = find_repeat_groups(library, pairs, std::nullopt, unlimited);
+  EXPECT_GT(all.size(), find_repeat_groups(library, pairs, std::nullopt, constants).size());
+}
+
 TEST(RepeatGroups, StancesAreNotMotion) {
   const PostureMatrix still = made_up_posture(1, 0).replicate(60, 1);
   const PostureLibrary library({still, still}, constants);
