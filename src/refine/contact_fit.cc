@@ -11,7 +11,8 @@ namespace {
 using Eigen::Index;
 using Constants = ContactFitConstants;
 
-/// Holding moves no joint much further than the ends of legs; what is left is found by measuring.
+/// A contact that is cut moves what is left of it in another way, which is looked at again so
+/// often.
 constexpr int most_rounds = 3;
 
 /// Of each joint, the leg that it is turned by, or -1.
