@@ -69,10 +69,6 @@ Vector3d translation(const Joint& joint, MotionFormat format, std::span<const do
 
 }  // namespace
 
-struct ChannelQuantiser::Progress {
-  std::vector<JointFrame> source, decoded;
-};
-
 ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
     : take_(take),
       order_(coding_order(*take.skeleton)),
@@ -90,10 +86,12 @@ ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
     channel.sine = (take.channels.col(order_[i]).array() * degree).sin().cast<float>();
     channel.cosine = (take.channels.col(order_[i]).array() * degree).cos().cast<float>();
   }
-  for (Body& body : bodies_) {
+  const auto make_room = [&](Body& body) {
     body.source.resize(index(frames));
     body.decoded.resize(index(frames));
-  }
+  };
+  std::ranges::for_each(bodies_, make_room);
+  make_room(progress_);
   PoseMetric metric(*take.skeleton, arm_at_one_mm * std::sqrt(bound_mm));
   const std::vector<double> weights(bodies_.size(), 1.0);
   std::vector<ChannelMetric> metrics(order_.size());
@@ -136,17 +134,19 @@ void ChannelQuantiser::place_joint(std::size_t j, std::size_t place, CodedChanne
   const Joint& joint = skeleton.joints[j];
   const bool asf = skeleton.format == MotionFormat::asf_amc, root = joint.parent < 0;
   const double scale = skeleton.millimetres_per_unit;
-  Progress progress{std::vector<JointFrame>(index(take_.frames())),
-                    std::vector<JointFrame>(index(take_.frames()))};
+  // Most bones of an ASF skeleton begin where their parent ends.
+  const bool apart = !asf || root || std::ranges::any_of(joint.channels, is_position);
+  Body& progress = progress_;
   for (Index f = 0; f < take_.frames(); ++f) {
     const std::span<const double> frame(take_.channels.row(f).data(), order_.size());
-    const Vector3d shift = translation(joint, skeleton.format, frame);
+    const Vector3d shift =
+        apart ? translation(joint, skeleton.format, frame) : Vector3d(Vector3d::Zero());
     const Vector3d bone = asf && root ? bone_of(joint, frame) : Vector3d(Vector3d::Zero());
     const auto start = [&](const std::vector<JointFrame>* parent) {
       JointFrame result{Matrix3d::Identity(), Vector3d::Zero()};
       if (parent != nullptr) result = (*parent)[index(f)];
       if (asf) result.rotation *= joint.axis;
-      result.position += scale * (result.rotation * shift + bone);
+      if (apart) result.position += scale * (result.rotation * shift + bone);
       return result;
     };
     const Body* parent = root ? nullptr : &bodies_[static_cast<std::size_t>(joint.parent)];
@@ -168,10 +168,10 @@ void ChannelQuantiser::place_joint(std::size_t j, std::size_t place, CodedChanne
   for (JointFrame& frame : progress.decoded) {
     if (asf) frame.rotation *= joint.axis.transpose();
   }
-  bodies_[j].decoded = std::move(progress.decoded);
+  std::swap(bodies_[j].decoded, progress.decoded);
 }
 
-void ChannelQuantiser::add_bone(std::size_t j, Progress& progress) const {
+void ChannelQuantiser::add_bone(std::size_t j, Body& progress) const {
   const Joint& joint = take_.skeleton->joints[j];
   for (Index f = 0; f < take_.frames(); ++f) {
     const Vector3d bone =
@@ -185,7 +185,7 @@ void ChannelQuantiser::add_bone(std::size_t j, Progress& progress) const {
 }
 
 /// The twist of what is placed so far says what the channel had better be off.
-void ChannelQuantiser::expect(std::size_t place, const Progress& progress) {
+void ChannelQuantiser::expect(std::size_t place, const Body& progress) {
   Trajectory& channel = channels_[place];
   for (Index f = 0; f < take_.frames(); ++f) {
     const JointFrame& source = progress.source[index(f)];
@@ -231,7 +231,7 @@ void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded,
 }
 
 void ChannelQuantiser::apply(std::size_t j, int slot, std::size_t place,
-                             const ChannelMatrix& decoded, Progress& progress) const {
+                             const ChannelMatrix& decoded, Body& progress) const {
   const Skeleton& skeleton = *take_.skeleton;
   const Joint& joint = skeleton.joints[j];
   const Trajectory& own = channels_[place];

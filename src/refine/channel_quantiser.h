@@ -48,23 +48,21 @@ class ChannelQuantiser {
   struct Body {
     std::vector<JointFrame> source, decoded;
   };
-  /// A joint on its way: turned and placed as far as its channels are done.
-  struct Progress;
-
   static std::size_t index(Eigen::Index frame) { return static_cast<std::size_t>(frame); }
   void place_joint(std::size_t joint, std::size_t first_place, CodedChannels& coded,
                    ChannelMatrix& decoded);
-  void add_bone(std::size_t joint, Progress& progress) const;
-  void expect(std::size_t place, const Progress& progress);
+  void add_bone(std::size_t joint, Body& progress) const;
+  void expect(std::size_t place, const Body& progress);
   void quantise_channel(std::size_t place, CodedChannels& coded, ChannelMatrix& decoded);
   void apply(std::size_t joint, int slot, std::size_t place, const ChannelMatrix& decoded,
-             Progress& progress) const;
+             Body& progress) const;
 
   const Take& take_;
   std::vector<int> order_, parents_;
   std::vector<int> last_;  ///< of each joint: the last place that moves it, or -1
   std::vector<Trajectory> channels_;
   std::vector<Body> bodies_;
+  Body progress_;  ///< a joint on its way: turned and placed as far as its channels are done
 };
 
 }  // namespace reprise
