@@ -115,7 +115,7 @@ TEST_P(Refinements, HostileBytesAreDamageOrMotion) {
 
 TEST(RefinementContacts, FeetSlideAsTheSourcesWithinTheBound) {
   SynthOptions options;
-  options.takes = 3;
+  options.takes = 2;
   options.seconds = 3;
   int held = 0;
   for (const Take& take : make_synthetic_library(options).takes) {
