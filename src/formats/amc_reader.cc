@@ -134,6 +134,10 @@ class AmcReader {
 
 Take read_amc(std::string_view text, const std::string& file,
               std::shared_ptr<const Skeleton> skeleton, std::optional<double> frame_rate) {
+  if (frame_rate && !is_frame_rate(*frame_rate)) {
+    throw Error(ErrorCode::usage,
+                "no motion has " + std::to_string(*frame_rate) + " frames a second");
+  }
   Take take;
   take.skeleton = std::move(skeleton);
   take.frame_rate = frame_rate.value_or(default_frame_rate);

@@ -53,6 +53,12 @@ struct SpaceRecord {
   Bytes data;
 };
 
+/// A space with all that it extends.
+struct SpaceChain {
+  std::vector<SpaceRecord> spaces;  ///< at least one
+  Digest digest{};                  ///< of the last one
+};
+
 /// What a layer of a take holds. Persisted: never change a value.
 enum class LayerKind : std::uint8_t {
   coefficients = 1,  ///< the take on the axes of its space; its mean error is bounded
@@ -158,6 +164,8 @@ class ArchiveStore {
   /// stays.
   ProportionsRecord reference_proportions(std::int64_t skeleton) const;
   SpaceRecord space(std::int64_t id) const;
+  /// The spaces that a space extends, the first one first, then itself; all of one skeleton.
+  SpaceChain space_chain(std::int64_t id) const;
   std::vector<std::int64_t> spaces_of_skeleton(
       std::int64_t skeleton) const;  ///< in order of creation
   /// These two leave the data of the layers out.

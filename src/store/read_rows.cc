@@ -10,6 +10,8 @@ namespace {
 /// Largest texts and blobs that are taken out of an archive (bytes).
 constexpr std::size_t most_text = std::size_t{1} << 28;
 constexpr std::size_t most_blob = std::size_t{1} << 30;
+/// Spaces that extend each other further than this were not made by an ingest.
+constexpr std::size_t most_extensions = 1000;
 
 [[noreturn]] void throw_damaged(const std::string& what) {
   throw Error(ErrorCode::damaged, "the archive is damaged: " + what + " is not as it was written");
@@ -101,31 +103,41 @@ ProportionsRecord ArchiveStore::reference_proportions(std::int64_t skeleton) con
   return proportions(row.integer());
 }
 
-Digest ArchiveStore::digest_of_space(std::int64_t id) const {
-  const SpaceRecord record = space(id);
-  Digest base{};
-  if (record.base != 0) base = digest_of_space(record.base);
-  return space_digest(skeleton(record.skeleton).structure, base, record.data);
+SpaceChain ArchiveStore::space_chain(std::int64_t id) const {
+  SpaceChain chain;
+  std::vector<std::pair<SpaceRecord, Bytes>> rows;
+  std::int64_t next = id;
+  do {
+    const std::string what = "the coefficient space " + std::to_string(next);
+    Statement row = impl_->prepare("SELECT skeleton, base, data, digest FROM spaces WHERE id=?");
+    row.bind(next);
+    if (!row.step() || rows.size() == most_extensions) throw_damaged(what);
+    SpaceRecord record;
+    record.id = next;
+    record.skeleton = row.integer();
+    record.base = row.integer();
+    record.data = decompress(row.bytes(), most_blob);
+    // A space only ever extends an older one: anything else would go round in circles.
+    if (record.base < 0 || record.base >= next) throw_damaged(what);
+    if (!rows.empty() && record.skeleton != rows.back().first.skeleton) throw_damaged(what);
+    next = record.base;
+    rows.emplace_back(std::move(record), row.bytes());
+  } while (next != 0);
+  const Digest structure = skeleton(rows.front().first.skeleton).structure;
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+    chain.digest = space_digest(structure, chain.digest, row->first.data);
+    expect_equal(row->second, chain.digest,
+                 "the coefficient space " + std::to_string(row->first.id));
+    chain.spaces.push_back(std::move(row->first));
+  }
+  return chain;
 }
 
 SpaceRecord ArchiveStore::space(std::int64_t id) const {
-  const std::string what = "the coefficient space " + std::to_string(id);
-  Statement row = impl_->prepare("SELECT skeleton, base, data, digest FROM spaces WHERE id=?");
-  row.bind(id);
-  if (!row.step()) throw_damaged(what);
-  SpaceRecord record;
-  record.id = id;
-  record.skeleton = row.integer();
-  record.base = row.integer();
-  record.data = decompress(row.bytes(), most_blob);
-  // A space only ever extends an older one: anything else would go round in circles.
-  if (record.base < 0 || record.base >= id) throw_damaged(what);
-  Digest base{};
-  if (record.base != 0) base = digest_of_space(record.base);
-  expect_equal(row.bytes(), space_digest(skeleton(record.skeleton).structure, base, record.data),
-               what);
-  return record;
+  return std::move(space_chain(id).spaces.back());
 }
+
+Digest ArchiveStore::digest_of_space(std::int64_t id) const { return space_chain(id).digest; }
 
 std::vector<std::int64_t> ArchiveStore::spaces_of_skeleton(std::int64_t skeleton) const {
   Statement row = impl_->prepare("SELECT id FROM spaces WHERE skeleton=? ORDER BY id");

@@ -36,6 +36,7 @@ SharedFacts read_shared_facts(const Database& database, std::int64_t proportions
   SharedFacts facts;
   facts.skeleton = row.integer();
   facts.frame_rate = row.real();
+  if (!is_frame_rate(facts.frame_rate)) throw_damaged("a frame rate");
   facts.frame_rate_assumed = row.integer() != 0;
   facts.format = static_cast<MotionFormat>(row.integer());
   facts.channels = static_cast<std::uint64_t>(row.integer());
@@ -65,7 +66,7 @@ TakeRecord whole_record(const Database& database, const StoredTake& stored,
 std::string all_words(const std::string& text) {
   std::string query, word;
   for (const char c : text + " ") {
-    if (c != ' ' && c != '\t') {
+    if (static_cast<unsigned char>(c) > ' ') {
       word += c;
       if (c == '"') word += c;
       continue;

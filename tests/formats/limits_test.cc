@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 
 #include "formats/samples.h"
 #include "reprise/error.h"
@@ -135,6 +136,13 @@ TEST(Limits, FrameNumbersDoNotOverflow) {
   text.replace(text.find("\n7\n"), 3, "\n9223372036854775807\n");
   EXPECT_EQ(rejection([&] { read_amc(text, "a.amc", skeleton); }),
             "4: frame numbers end at 1000000000000");
+}
+
+TEST(FrameRates, OfAMotionAreNeitherNothingNorEndless) {
+  const auto skeleton = std::make_shared<const Skeleton>(read_asf(plain_asf(), "a.asf"));
+  for (const double rate : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(read_amc(plain_amc(), "a.amc", skeleton, rate), Error) << rate;
+  EXPECT_EQ(read_amc(plain_amc(), "a.amc", skeleton, 25.0).frame_rate, 25.0);
 }
 
 }  // namespace

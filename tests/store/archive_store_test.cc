@@ -200,5 +200,62 @@ TEST_F(ArchiveStoreTest, StatisticsAddUp) {
   EXPECT_EQ(weights, stats.frames * 20);
 }
 
+TEST_F(StoreTest, SpacesAreReadOnceHoweverManyExtendEachOther) {
+  // Each that asked twice for the one before it would take twice as long as that one.
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  const Ground ground = lay_ground(store);
+  std::int64_t last = ground.space;
+  for (unsigned i = 0; i < 60; ++i)
+    last = store.add_space({0, ground.skeleton, last, random_bytes(20, i)});
+  const SpaceChain chain = store.space_chain(last);
+  ASSERT_EQ(chain.spaces.size(), 61u);
+  EXPECT_EQ(chain.spaces.front().id, ground.space);
+  EXPECT_EQ(chain.spaces.back().data, random_bytes(20, 59));
+  EXPECT_EQ(chain.digest, store.digest_of_space(last));
+  EXPECT_NE(chain.digest, store.digest_of_space(chain.spaces[59].id));
+}
+
+TEST_F(StoreTest, SpacesExtendThoseOfTheirOwnSkeleton) {
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  const Ground ground = lay_ground(store), other = lay_ground(store);
+  const std::int64_t mixed = store.add_space({0, other.skeleton, ground.space, {1, 2, 3}});
+  try {
+    store.space(mixed);
+    ADD_FAILURE() << "a space of two skeletons";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::damaged);
+  }
+}
+
+TEST_F(StoreTest, WordsWithControlCharactersAreLookedForToo) {
+  make_sample(path_, 6);
+  const ArchiveStore store = ArchiveStore::open_for_reading(path_);
+  TakeFilter filter;
+  for (const std::string& text : {std::string("walks\0person", 12), std::string("walks\nperson")}) {
+    filter.text = text;
+    EXPECT_EQ(store.takes(filter).size(), 3u);
+  }
+}
+
+TEST_F(StoreTest, TakesHaveAFrameRate) {
+  for (const double rate : {0.0, -120.0, 1e300}) {
+    fs::remove(path_);
+    ArchiveStore store = ArchiveStore::open_for_writing(path_);
+    store.begin();
+    Ground ground = lay_ground(store);
+    ProportionsRecord proportions = store.proportions(ground.proportions);
+    proportions.frame_rate = rate;
+    ground.proportions = store.add_proportions(proportions);
+    try {
+      add_sample(store, ground, 0);
+      ADD_FAILURE() << rate;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::damaged) << rate;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace reprise

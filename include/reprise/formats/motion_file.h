@@ -35,7 +35,8 @@ struct ReadOptions {
 
 /// Parsers of text in memory. `file` names it in errors. Throw Error (rejected_input) with file and
 /// line. The take's name is left empty. Frames that the file lacks are not invented: a BVH has the
-/// frames that its lines hold; where `Frames:` disagrees the file is rejected.
+/// frames that its lines hold; where `Frames:` disagrees the file is rejected. A frame rate that no
+/// take may have (is_frame_rate) is an Error (usage).
 Take read_bvh(std::string_view text, const std::string& file, double millimetres_per_unit = 10.0);
 Skeleton read_asf(std::string_view text, const std::string& file);
 Take read_amc(std::string_view text, const std::string& file,

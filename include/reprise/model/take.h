@@ -13,6 +13,9 @@ namespace reprise {
 /// frames x channels, row-major; lengths in the file's unit, rotations in degrees.
 using ChannelMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Whether a take may have this rate (frames a second).
+constexpr bool is_frame_rate(double rate) { return rate > 1e-6 && rate < 1e6; }
+
 /// What a motion file says besides its numbers, so that what comes out looks like what came in.
 struct TakeLayout {
   std::string frame_time_text;  ///< BVH: the frame time as written, such as "0.0333333"
