@@ -74,11 +74,9 @@ class Reading {
   std::uint32_t bits(std::uint32_t, int count) { return coder_.decode_bits(count); }
   std::uint32_t number(std::uint32_t) { return decode_number(coder_); }
   /// Whether so much was read that no encoder can have written it.
-  bool at_end() const { return coder_.bytes_past_end() > most_past_end; }
+  bool at_end() const { return coder_.ran_out(); }
 
  private:
-  /// Four that the decoder reads ahead, and the zeros that an encoder leaves out.
-  static constexpr std::size_t most_past_end = 16;
   RangeDecoder& coder_;
 };
 

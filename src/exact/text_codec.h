@@ -11,7 +11,7 @@
 namespace reprise {
 
 /// Codes any bytes. `known_text` is what the decoder has already: of a BVH the text before the
-/// line MOTION. The result was decoded and compared, and is never larger than the text
+/// line MOTION. Coded numbers were decoded and compared; the result is never larger than the text
 /// as a zstd frame of level 19.
 std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text);
 

@@ -30,6 +30,7 @@ struct BitReader {
     return mixer.decode(decoder, contexts);
   }
   std::uint32_t plain(std::uint32_t, int count) { return decoder.decode_plain(count); }
+  bool ran_out() const { return decoder.ran_out(); }
 };
 
 struct BitLearner {

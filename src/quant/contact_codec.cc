@@ -113,7 +113,7 @@ TakeContacts decode_contacts(RangeDecoder& decoder, const ContactShape& shape) {
   contacts.hold = static_cast<int>(decoder.decode_plain(TakeContacts::hold_bits));
   ContactWalk walk(shape);
   std::vector<std::vector<ContactInterval>> found(walk.point_count());
-  for (long unit = 0; unit < shape.units(); ++unit) {
+  for (long unit = 0; unit < shape.units() && !decoder.ran_out(); ++unit) {
     for (std::size_t p = 0; p < walk.point_count(); ++p) {
       const bool stood = walk.stands(p);
       walk.step(p, [&](Probability change) { return decoder.decode(change); });

@@ -55,6 +55,9 @@ class KnotWalk : KnotWalkConstants {
     for (const KnotGroup& group : knot_order(shape_)) {
       const int end = code_end(group);
       for (const KnotRow& row : group.rows) {
+        if constexpr (requires { io_.ran_out(); }) {
+          if (io_.ran_out()) return;
+        }
         for (int column = group.first_column; column < end; ++column) code_knot(group, row, column);
       }
     }
@@ -197,7 +200,8 @@ class KnotWalk : KnotWalkConstants {
   }
 
   int code_value(int value, const int (&signs)[4]) {
-    int magnitude = std::abs(value);
+    // Of a reader a value is what a damaged stream has made of it: any at all.
+    const std::int64_t magnitude = std::abs(std::int64_t{value});
     if (!decide(is_not_zero, magnitude > 0)) return 0;
     int known = 1;
     while (known <= unary_limit && decide(is_more_than + u(known - 1), magnitude > known)) ++known;
@@ -212,7 +216,7 @@ class KnotWalk : KnotWalkConstants {
   static constexpr std::uint32_t u(int value) { return static_cast<std::uint32_t>(value); }
 
   /// Numbers beyond the unary ones: how many bits, then the bits.
-  int code_rest(int rest) {
+  int code_rest(std::int64_t rest) {
     const std::uint32_t plus_one = static_cast<std::uint32_t>(rest) + 1;
     std::uint32_t node = 1;
     BitMixer::Contexts contexts;

@@ -49,11 +49,16 @@ class RangeDecoder {
   std::uint32_t decode_plain(int count);
   std::uint32_t decode_uniform(std::uint32_t total);
   std::uint32_t decode_bits(int count);
-  /// How many bytes past the end were asked for: more than a few, and the stream is not one of
-  /// ours.
+  /// How many bytes past the end were asked for.
   std::size_t bytes_past_end() const { return past_end_; }
+  /// More than any stream of ours asks for (docs/format.md): whoever reads on reads what nobody
+  /// wrote, and maybe very much of it.
+  bool ran_out() const { return past_end_ > most_past_end; }
 
  private:
+  /// Four that are read ahead, the zeros that an encoder leaves out, and some.
+  static constexpr std::size_t most_past_end = 16;
+
   std::uint8_t next_byte();
 
   std::span<const std::uint8_t> bytes_;

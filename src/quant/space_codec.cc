@@ -105,6 +105,7 @@ struct Writer {
     encoder.encode_plain(value, bits);
     return value;
   }
+  static bool ran_out() { return false; }
 };
 
 struct Reader {
@@ -112,6 +113,7 @@ struct Reader {
   bool operator()(Probability one, bool) { return decoder.decode(one); }
   std::int32_t number(std::int32_t) { return decode_signed(decoder); }
   std::uint32_t plain(std::uint32_t, int bits) { return decoder.decode_plain(bits); }
+  bool ran_out() const { return decoder.ran_out(); }
 };
 
 template <class Io>
@@ -164,6 +166,7 @@ void code_axes(Io& io, CoefficientSpace& space, Index first, double axis_error) 
     const double step = axis_step(axis_error, deviation_of(deviation));
     const int expected = size_class(step, dimensions);
     for (Index d = 0; d < dimensions; ++d) {
+      if (io.ran_out()) throw_damaged();
       const auto entry = static_cast<std::int32_t>(std::lround(space.axes(d, k) / step));
       space.axes(d, k) = model.code(entry, expected, io) * step;
     }
@@ -219,8 +222,7 @@ CoefficientSpace decode_space(std::span<const std::uint8_t> bytes, const Skeleto
   CoefficientSpace space;
   if (base != nullptr) space = *base;
   code_space(reader, space, reference, space.axes.cols(), base != nullptr, {});
-  // A stream that needs far more bytes than it has is not one that was written.
-  if (reader.decoder.bytes_past_end() > 16) throw_damaged();
+  if (reader.ran_out()) throw_damaged();
   return space;
 }
 

@@ -16,9 +16,6 @@ namespace {
 using Eigen::Index;
 
 constexpr int step_bits = 9;
-/// Past the end of its bytes a stream reads zeros; one that wants more than this of them is
-/// damaged.
-constexpr std::size_t most_bytes_past_end = 16;
 
 [[noreturn]] void throw_damaged() {
   throw Error(ErrorCode::damaged, "the motion of a take is not as it was written");
@@ -142,8 +139,7 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
   for (std::uint32_t s = 0; s < switches; ++s) {
     frame += decode_number(decoder);
     const std::uint32_t driven = decode_number(decoder);
-    if (frame >= take.frames || driven > space.layout.driven.size() ||
-        decoder.bytes_past_end() > most_bytes_past_end) {
+    if (frame >= take.frames || driven > space.layout.driven.size() || decoder.ran_out()) {
       throw_damaged();
     }
     BranchSwitch branch{
@@ -156,7 +152,7 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
   motion.knots = KnotModel(model).decode(decoder, shape);
   const std::vector<Leg> legs = find_legs(space.layout.reference);
   motion.contacts = decode_contacts(decoder, contact_shape(legs, take.frames, take.frame_rate));
-  if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+  if (decoder.ran_out()) throw_damaged();
   return motion;
 }
 

@@ -89,13 +89,13 @@ bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
     scales_.kinds[kind] = decoder.decode_plain(1) != 0;
     if (!scales_.kinds[kind]) continue;
     for_scales_of(static_cast<CurveKind>(kind), scales_.columns, [&](std::size_t i) {
-      scales_.codes[i] =
-          static_cast<std::int8_t>(std::clamp(decode_signed(decoder) + expected_scale(scales_, i),
-                                              KnotScales::least, KnotScales::most));
+      const std::int64_t code = std::int64_t{decode_signed(decoder)} + expected_scale(scales_, i);
+      scales_.codes[i] = static_cast<std::int8_t>(
+          std::clamp<std::int64_t>(code, KnotScales::least, KnotScales::most));
     });
   }
   if (decoder.decode_plain(1) != 0) mixer_.load(decoder);
-  return decoder.bytes_past_end() <= 16;
+  return !decoder.ran_out();
 }
 
 void KnotModel::encode(RangeEncoder& encoder, const KnotShape& shape, const QuantisedKnots& knots) {

@@ -107,6 +107,9 @@ class Walk {
 
   /// Knots of the coarser levels are `apart` from `f` on both sides; those of its own level `step`.
   void code(Index f, Index apart, int level) {
+    if constexpr (requires { io_.ran_out(); }) {
+      if (io_.ran_out()) return;
+    }
     const bool coarsest = level == shape_.levels;
     const Index step = coarsest ? apart : 2 * apart;
     const std::uint32_t slot =

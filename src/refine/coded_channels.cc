@@ -16,8 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t most_bytes_past_end = 16;
-
 [[noreturn]] void throw_damaged() {
   throw Error(ErrorCode::damaged, "the motion of a take is not as it was written");
 }
@@ -118,7 +116,7 @@ CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& t
   const ChannelKnotShape& shape = coded.shape;
   for (std::size_t i = 0; i < coded.steps.base.size(); ++i) {
     if (coded.steps.base[i] >= 0) continue;
-    if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+    if (decoder.ran_out()) throw_damaged();
     if (coded.stored.cols() == 0) coded.stored = MatrixXd::Zero(shape.frames, coded.knots.cols());
     for (Index f = 0; f < shape.frames; ++f) {
       const std::uint64_t high = decoder.decode_plain(32);
@@ -128,10 +126,10 @@ CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& t
     }
   }
   coded.knots = ChannelCoder().decode(decoder, shape, coded.steps);
-  if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+  if (decoder.ran_out()) throw_damaged();
   coded.contacts =
       decode_contacts(decoder, contact_shape(coded.legs, shape.frames, coded.frame_rate));
-  if (decoder.bytes_past_end() > most_bytes_past_end) throw_damaged();
+  if (decoder.ran_out()) throw_damaged();
   return coded;
 }
 

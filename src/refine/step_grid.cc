@@ -13,8 +13,6 @@ namespace {
 using Eigen::Index;
 using Constants = StepConstants;
 
-constexpr std::size_t most_bytes_past_end = 16;
-
 std::array<double, Constants::most + 1> make_steps() {
   constexpr double eighths[Constants::per_octave] = {1.0,
                                                      1.0905077326652577,
@@ -157,10 +155,13 @@ void StepGrid::encode(RangeEncoder& encoder) const {
 }
 
 bool StepGrid::decode(RangeDecoder& decoder) {
-  const auto code_bit = [&](Probability one, bool) { return decoder.decode(one); };
+  // Zeros take no time: who has run out is told so below.
+  const auto code_bit = [&](Probability one, bool) {
+    return !decoder.ran_out() && decoder.decode(one);
+  };
   if (!code_base(base, turns_, code_bit)) return false;
   code_offsets(offsets, parents_, code_bit);
-  return decoder.bytes_past_end() <= most_bytes_past_end;
+  return !decoder.ran_out();
 }
 
 }  // namespace reprise

@@ -64,5 +64,10 @@ TEST(ContactCodec, WhateverTheBytesSayContactsAreInTheTake) {
   }
 }
 
+TEST(ContactCodec, BytesThatEndEndTheContacts) {
+  RangeDecoder decoder({});
+  EXPECT_LT(decode_contacts(decoder, {{2, 2}, 1000000, 1}).intervals.size(), 1000u);
+}
+
 }  // namespace
 }  // namespace reprise

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "quant/catmull_rom.h"
+#include "quant/numbers.h"
 
 namespace reprise {
 namespace {
@@ -131,6 +133,44 @@ TEST(KnotModel, GarbageIsReadWithoutHarm) {
     RangeDecoder again(bytes);
     model.decode(again, shape);
   }
+}
+
+TEST(KnotModel, KnotsOfEverySizeComeBack) {
+  // Each differs from the one before it by what a number may be at most, down to the least integer.
+  constexpr std::int32_t step = 1 << 30, least = std::numeric_limits<std::int32_t>::min();
+  Knots knots;
+  knots.shape = {4, 1, 1, 0, 0, 0, 10, 120};
+  knots.values.resize(4, 1);
+  knots.values << -step, least, least, -step;
+  RangeEncoder encoder;
+  KnotModel().encode(encoder, knots.shape, knots.values);
+  const auto bytes = encoder.finish();
+  RangeDecoder decoder(bytes);
+  EXPECT_EQ(KnotModel().decode(decoder, knots.shape), knots.values);
+}
+
+TEST(KnotModel, BytesThatEndEndTheKnots) {
+  const KnotShape shape{10000, 4, 4, 0, 0, 0, 10, 120};
+  RangeDecoder decoder({});
+  const QuantisedKnots knots = KnotModel().decode(decoder, shape);
+  EXPECT_TRUE(decoder.ran_out());
+  EXPECT_TRUE((knots.bottomRows(9000).array() == 0).all()) << "read from nowhere";
+}
+
+TEST(KnotModel, ScalesBeyondTheirLimitsAreCut) {
+  RangeEncoder encoder;
+  encode_number(encoder, 1);
+  encoder.encode_plain(1, 1);
+  for (int i = 0; i < KnotSlots::levels; ++i)
+    encode_signed(encoder, std::numeric_limits<std::int32_t>::max());
+  encoder.encode_plain(0, 2);
+  KnotModel loaded;
+  ASSERT_TRUE(loaded.load_prior(encoder.finish()));
+  KnotScales greatest;
+  greatest.columns = 1;
+  greatest.codes.assign(KnotSlots::count, KnotScales::most);
+  greatest.keep({true, false});
+  EXPECT_EQ(loaded.prior(false), KnotModel(greatest).prior(false));
 }
 
 }  // namespace

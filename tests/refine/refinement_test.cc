@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "refine/coded_channels.h"
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 #include "reprise/model/measure.h"
@@ -138,6 +139,17 @@ TEST(RefinementContacts, FeetSlideAsTheSourcesWithinTheBound) {
     EXPECT_TRUE(decode_refinement(*take.skeleton, shape_of(take), with.bytes) == with.decoded);
   }
   EXPECT_GT(held, 0);
+}
+
+TEST(ChannelCoding, BytesThatEndEndTheKnots) {
+  const Take take = synthetic_take(MotionFormat::bvh, 1);
+  CodedChannels channels(*take.skeleton, {20000, 120}, {0, 8});
+  RangeDecoder decoder({});
+  EXPECT_FALSE(channels.steps.decode(decoder));
+  RangeDecoder again({});
+  channels.steps = StepGrid(*take.skeleton, 20000, 8);
+  const ChannelKnots knots = ChannelCoder().decode(again, channels.shape, channels.steps);
+  EXPECT_TRUE((knots.rightCols(knots.cols() - 1).array() == 0).all()) << "read from nowhere";
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Refinements,
