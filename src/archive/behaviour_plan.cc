@@ -15,13 +15,17 @@ std::vector<BehaviourPlan::Segment> BehaviourPlan::stored_segments() const {
   std::vector<Segment> segments;
   for (std::size_t take = 0; take < stored_.size(); ++take) {
     const std::vector<ClipInfo>& clips = stored_[take].clips;
-    const auto rows = static_cast<double>(library_.postures[take].rows());
+    const long rows = library_.postures[take].rows();
     const double seconds = stored_[take].take.seconds();
     for (std::size_t c = 0; c < clips.size(); ++c) {
-      const auto sample = [&](double at) { return std::lround(at / seconds * rows); };
+      const auto sample = [&](double at) {
+        return std::clamp(std::lround(at / seconds * static_cast<double>(rows)), 0L, rows);
+      };
       const long begin = sample(clips[c].start), end = sample(clips[c].end);
       if (begin >= end || clips[c].group == 0) continue;
-      if (c > 0 && clips[c - 1].group == clips[c].group && !segments.empty()) {
+      const bool goes_on = c > 0 && clips[c - 1].group == clips[c].group && !segments.empty() &&
+                           segments.back().take == take;
+      if (goes_on) {
         segments.back().end = end;
       } else {
         segments.push_back({take, begin, end, clips[c].group});

@@ -82,11 +82,11 @@ InputFiles find_input_files(const std::vector<fs::path>& paths, const std::strin
       by_name[name_without_extension(relative)].emplace_back(path, relative);
     }
   }
+  std::set<std::string> used;
   for (auto& [name, files] : by_name) {
     std::sort(files.begin(), files.end());
     std::set<fs::path> spellings;
     for (const auto& [path, relative] : files) spellings.insert(relative);
-    std::set<std::string> used;
     for (const auto& [path, relative] : files) {
       // x.bvh beside x.amc: the extension tells them apart.
       std::string own = spellings.size() == 1 ? name : relative.generic_string();

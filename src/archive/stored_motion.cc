@@ -4,6 +4,7 @@
 
 #include "query/clip_info.h"
 #include "query/take_decoder.h"
+#include "reprise/error.h"
 
 namespace reprise {
 namespace {
@@ -42,8 +43,9 @@ std::int64_t StoredMotionReader::skeleton_of(std::int64_t proportions) {
 }
 
 RootAxis StoredMotionReader::root_of(std::int64_t skeleton) {
-  const std::int64_t space = archive_.store.spaces_of_skeleton(skeleton).front();
-  const LayoutChoices& choices = archive_.space(space).space.layout.choices;
+  const std::vector<std::int64_t> spaces = archive_.store.spaces_of_skeleton(skeleton);
+  if (spaces.empty()) throw Error(ErrorCode::damaged, "the archive is damaged: axes are missing");
+  const LayoutChoices& choices = archive_.space(spaces.front()).space.layout.choices;
   return {choices.root_joint, choices.up_axis};
 }
 

@@ -1,6 +1,7 @@
 #include "ingest/joint_angles.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
 
 #include "ingest/axis_turns.h"
@@ -66,7 +67,9 @@ JointAngleSolver::JointAngleSolver(const MarkerLayout& layout, std::span<const d
 
 void JointAngleSolver::look_near(std::size_t index, std::span<const double> degrees) {
   const DrivenJoint& driven = layout_.driven[index];
-  for (std::size_t k = 0; k < driven.rotations.size(); ++k) {
+  // Chains of more rotations than that are not told where to look, but by damaged bytes.
+  const std::size_t count = std::min(degrees.size(), driven.rotations.size());
+  for (std::size_t k = 0; k < count; ++k) {
     angles_[driven.rotations[k].channel] = degrees[k] / degrees_per_radian;
   }
 }

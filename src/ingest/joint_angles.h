@@ -18,7 +18,7 @@ class JointAngleSolver {
   JointAngleSolver(const MarkerLayout& layout, std::span<const double> start);
 
   /// Makes the next frame look for the angles of driven joint `index` near these (degrees,
-  /// outermost first).
+  /// outermost first; of a longer chain the first ones).
   void look_near(std::size_t index, std::span<const double> degrees);
 
   /// `markers` has layout.dimensions() numbers; the direct channels are read from `channels`.

@@ -107,7 +107,9 @@ TakeInfo Archive::find_take(const std::string& id) const {
   const std::vector<std::string> names = impl_->store.take_names_ending_in(id, most_candidates + 1);
   if (names.size() > 1) throw_ambiguous(id, names);
   if (names.empty()) throw Error(ErrorCode::not_found, "there is no take '" + id + "'");
-  return impl_->store.find_take(names[0])->info;
+  const auto found = impl_->store.find_take(names[0]);
+  if (!found) throw Error(ErrorCode::damaged, "the archive is damaged: its index of names");
+  return found->info;
 }
 
 std::vector<ClipInfo> Archive::find_clips(const std::string& id) const {

@@ -35,7 +35,7 @@ struct OpenArchive {
     const auto known = proportions_read.find(id);
     return known != proportions_read.end()
                ? known->second
-               : proportions_read.emplace(id, store.proportions(id)).first->second;
+               : proportions_read.emplace(id, read_proportions(store, id)).first->second;
   }
 
   ArchiveStore store;

@@ -2,12 +2,16 @@
 
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
+#include "store/digest.h"
 
 namespace reprise {
 namespace {
 
-/// Spaces that extend each other deeper than this were not made by an ingest.
-constexpr int most_extensions = 1000;
+/// Far from where sums of it overflow.
+constexpr std::uint64_t most_first_frame = std::uint64_t{1} << 60;
+
+/// Millimetres in a unit of length; nothing that is measured in it overflows.
+constexpr double greatest_unit_mm = 1e15;
 
 [[noreturn]] void throw_damaged(const std::string& why) {
   throw Error(ErrorCode::damaged, "the archive is damaged: " + why);
@@ -78,7 +82,9 @@ TakeLayout unpack_layout(const Bytes& bytes, std::size_t joints) {
     if (joint >= joints) throw_damaged("a header names a joint that is not there");
     layout.amc_joints.push_back(static_cast<int>(joint));
   }
-  layout.first_frame_number = static_cast<long>(reader.number());
+  const std::uint64_t first_frame = reader.number();
+  if (first_frame > most_first_frame) throw_damaged("a header counts frames from nowhere");
+  layout.first_frame_number = static_cast<long>(first_frame);
   layout.radians = reader.number() != 0;
   return layout;
 }
@@ -97,13 +103,14 @@ std::shared_ptr<const Skeleton> skeleton_of(const ProportionsRecord& record, Mot
   }
 }
 
-CodedSpace read_space(const ArchiveStore& store, std::int64_t id, int depth) {
-  if (depth > most_extensions) throw_damaged("spaces extend each other without end");
-  const SpaceRecord record = store.space(id);
-  const Skeleton reference = reference_skeleton(store, record.skeleton);
-  if (record.base == 0) return unpack_space(record.data, reference, nullptr);
-  const CodedSpace base = read_space(store, record.base, depth + 1);
-  return unpack_space(record.data, reference, &base.space);
+/// Whether the skeleton's text has the structure that its row says: decoders count on it.
+std::shared_ptr<const Skeleton> checked_skeleton(const ProportionsRecord& record,
+                                                 const SkeletonRecord& row) {
+  auto skeleton = skeleton_of(record, row.format);
+  if (digest_of(structure_bytes(*skeleton)) != row.structure) {
+    throw_damaged("a skeleton is not of the structure that is stored of it");
+  }
+  return skeleton;
 }
 
 }  // namespace
@@ -129,13 +136,27 @@ Take empty_take(const ProportionsRecord& record, MotionFormat format) {
   return take;
 }
 
+ProportionsRecord read_proportions(const ArchiveStore& store, std::int64_t id) {
+  ProportionsRecord record = store.proportions(id);
+  if (!(record.millimetres_per_unit >= 1 / greatest_unit_mm &&
+        record.millimetres_per_unit <= greatest_unit_mm)) {
+    throw_damaged("a skeleton's unit makes no sense");
+  }
+  checked_skeleton(record, store.skeleton(record.skeleton));
+  return record;
+}
+
 Skeleton reference_skeleton(const ArchiveStore& store, std::int64_t skeleton) {
-  const SkeletonRecord record = store.skeleton(skeleton);
-  return *skeleton_of(store.reference_proportions(skeleton), record.format);
+  return *checked_skeleton(store.reference_proportions(skeleton), store.skeleton(skeleton));
 }
 
 CodedSpace read_space(const ArchiveStore& store, std::int64_t id) {
-  return read_space(store, id, 0);
+  const std::vector<SpaceRecord> spaces = store.space_chain(id).spaces;
+  const Skeleton reference = reference_skeleton(store, spaces.front().skeleton);
+  CodedSpace coded = unpack_space(spaces.front().data, reference, nullptr);
+  for (std::size_t i = 1; i < spaces.size(); ++i)
+    coded = unpack_space(spaces[i].data, reference, &coded.space);
+  return coded;
 }
 
 }  // namespace reprise

@@ -16,7 +16,11 @@ ProportionsRecord proportions_record(const Skeleton& skeleton, const TakeLayout&
 /// A take without frames, as its proportions say. Throws Error (damaged).
 Take empty_take(const ProportionsRecord& record, MotionFormat format);
 
-/// The skeleton that the spaces of a stored skeleton are made for.
+/// Proportions whose text is a skeleton of the structure that they are stored for. Throws Error
+/// (damaged).
+ProportionsRecord read_proportions(const ArchiveStore& store, std::int64_t id);
+
+/// The skeleton that the spaces of a stored skeleton are made for. Throws Error (damaged).
 Skeleton reference_skeleton(const ArchiveStore& store, std::int64_t skeleton);
 
 /// A space with all that it extends. Throws Error (damaged).

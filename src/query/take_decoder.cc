@@ -8,6 +8,9 @@
 namespace reprise {
 namespace {
 
+/// In the file's units or degrees; a source has at most InputLimits::magnitude.
+constexpr double greatest_channel = 1e12;
+
 bool keeps(const LayerRecord& layer, FidelityTier tier) {
   switch (tier) {
     case FidelityTier::preview:
@@ -47,8 +50,14 @@ ChannelMatrix channels_of(OpenArchive& archive, const TakeRecord& record, const 
   const Bytes data = archive.store.layer(record.info.id, index);
   const TakeShape shape{record.info.frames, record.info.frame_rate};
   switch (layer.kind) {
-    case LayerKind::coefficients:
-      return decode_take(archive.space(record.space), *empty.skeleton, shape, data);
+    case LayerKind::coefficients: {
+      const CodedSpace& space = archive.space(record.space);
+      if (!same_structure(space.space.layout.reference, *empty.skeleton)) {
+        throw Error(ErrorCode::damaged, "the archive is damaged: the axes of take '" +
+                                            record.info.name + "' are another skeleton's");
+      }
+      return decode_take(space, *empty.skeleton, shape, data);
+    }
     case LayerKind::refinement:
       return decode_refinement(*empty.skeleton, shape, data);
     case LayerKind::text: {
@@ -81,6 +90,11 @@ Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t la
   if (take.frames() != record.info.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
                                         "' has another number of frames than was stored");
+  }
+  // Whoever measures or sorts what comes out counts on this. A NaN fails it, too.
+  if (!(take.channels.array().abs() <= greatest_channel).all()) {
+    throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
+                                        "' decodes to numbers that no motion has");
   }
   return take;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "archive/space_training.h"
+#include "ingest/joint_angles.h"
 #include "ingest/skeletons.h"
 
 namespace reprise {
@@ -129,6 +130,33 @@ TEST(Trajectories, StillTakeHasOneFrameEach) {
   EXPECT_LT(worst_distance(take, there_and_back(whole_space(take), take)), 1e-3);
   take.channels = take.channels.replicate(30, 1).eval();
   EXPECT_LT(worst_distance(take, there_and_back(whole_space(take), take)), 1e-3);
+}
+
+TEST(JointAngles, LookingNearLeavesAnglesBeyondTheThirdAsTheyAre) {
+  const Skeleton skeleton = read_bvh_skeleton(
+      "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation "
+      "Xrotation Yrotation\nJOINT b\n{\nOFFSET 0 10 0\nCHANNELS 5 Zrotation Xrotation Yrotation "
+      "Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 10 0\n}\n}\n}\n",
+      "chain");
+  LayoutChoices choices;
+  choices.active.assign(11, false);
+  choices.active[6] = choices.active[7] = true;
+  const MarkerLayout layout = make_marker_layout(skeleton, choices);
+  const auto chain = std::ranges::find(layout.driven, 1, &DrivenJoint::joint);
+  ASSERT_NE(chain, layout.driven.end());
+  ASSERT_EQ(chain->rotations.size(), 5u);
+  const std::vector<double> start(11, 5.0);
+  JointAngleSolver solver(layout, start);
+  // Whoever reads on reads what stands behind the three.
+  const std::array<double, 5> degrees = {10, 20, 30, 1e6, 1e6};
+  solver.look_near(static_cast<std::size_t>(chain - layout.driven.begin()),
+                   std::span(degrees).first(3));
+  std::vector<double> channels(11, 5.0);
+  std::vector<double> markers(static_cast<std::size_t>(layout.dimensions()));
+  place_markers(layout, channels, Eigen::Matrix3d::Identity(), markers);
+  solver.solve(markers, nullptr, channels);
+  EXPECT_NEAR(channels[9], 5.0, 1e-9);
+  EXPECT_NEAR(channels[10], 5.0, 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,128 @@
+// Records that are whole, as their digests say, and do not fit each other: somebody made them so.
+#include "archive/archive_fixture.h"
+#include "refine/coded_channels.h"
+#include "reprise/error.h"
+#include "store/archive_store.h"
+
+namespace reprise {
+namespace {
+
+/// A chain of joints below a root that moves through space.
+std::string chain_bvh(int joints, int frames) {
+  std::string text =
+      "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation "
+      "Xrotation Yrotation\n";
+  for (int j = 0; j < joints; ++j) {
+    text += "JOINT j" + std::to_string(j) +
+            "\n{\nOFFSET 0 10 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+  }
+  text += "End Site\n{\nOFFSET 0 10 0\n}\n";
+  for (int j = 0; j <= joints; ++j) text += "}\n";
+  text += "MOTION\nFrames: " + std::to_string(frames) + "\nFrame Time: 0.02\n";
+  for (int f = 0; f < frames; ++f) {
+    for (int c = 0; c < 6 + 3 * joints; ++c)
+      text += std::to_string(f * (c % 5 + 1) % 40) + (c + 1 < 6 + 3 * joints ? " " : "\n");
+  }
+  return text;
+}
+
+class FalseRecords : public ArchiveTest {
+ protected:
+  FalseRecords() {
+    write("takes/long.bvh", chain_bvh(8, 40));
+    write("takes/short.bvh", chain_bvh(1, 40));
+    EXPECT_EQ(add("archive", {"takes"}).added.size(), 2u);
+    store_.emplace(ArchiveStore::open_for_writing(folder_ / "archive"));
+    store_->begin();
+    long_ = record("long");
+    short_ = record("short");
+  }
+
+  TakeRecord record(const std::string& name) {
+    TakeRecord record = *store_->find_take(name);
+    for (std::size_t i = 0; i < record.layers.size(); ++i)
+      record.layers[i].data = store_->layer(record.info.id, i);
+    return record;
+  }
+
+  /// Stores the record as a take of its own, and reads it.
+  void expect_damage(TakeRecord record, const std::string& what) {
+    ClipRecord clip;
+    clip.frames = record.info.frames;
+    record.info.name = "false";
+    store_->add_take(record, std::span(&clip, 1));
+    store_->commit();
+    store_.reset();
+    const Archive archive(folder_ / "archive");
+    try {
+      archive.extract(archive.find_take("false"));
+      ADD_FAILURE() << what;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::damaged) << what << ": " << error.what();
+    }
+    EXPECT_EQ(archive.extract(archive.find_take("long")).frames(), 40);
+    EXPECT_FALSE(archive.verify().ok) << what;
+  }
+
+  std::optional<ArchiveStore> store_;
+  TakeRecord long_, short_;
+};
+
+TEST_F(FalseRecords, AxesOfAnotherSkeletonAreDamage) {
+  short_.space = long_.space;
+  expect_damage(short_, "the axes of another skeleton");
+}
+
+TEST_F(FalseRecords, ProportionsOfAnotherStructureAreDamage) {
+  ProportionsRecord proportions = store_->proportions(short_.proportions);
+  proportions.skeleton = store_->proportions(long_.proportions).skeleton;
+  long_.proportions = store_->add_proportions(proportions);
+  expect_damage(long_, "the text of another skeleton");
+}
+
+TEST_F(FalseRecords, UnitsThatNobodyMeasuresInAreDamage) {
+  ProportionsRecord proportions = store_->proportions(short_.proportions);
+  proportions.millimetres_per_unit = 1e200;
+  short_.proportions = store_->add_proportions(proportions);
+  expect_damage(short_, "a unit of 1e197 m");
+}
+
+TEST_F(FalseRecords, NumbersThatNoMotionHasAreDamage) {
+  const Take take = read_motion_file(folder_ / "takes/short.bvh");
+  CodedChannels channels(*take.skeleton, {take.frames(), take.frame_rate}, {0, 0});
+  std::ranges::fill(channels.steps.base, -1);
+  channels.stored = Eigen::MatrixXd::Constant(take.frames(), take.skeleton->channel_count, 1e300);
+  short_.layers.push_back({LayerKind::refinement, 10.0, channels.encode()});
+  expect_damage(short_, "a joint at 1e300");
+}
+
+TEST_F(FalseRecords, ClipsWithoutFramesAreNoHindrance) {
+  // The first one of a take has no frames and the group of the one after it.
+  std::vector<ClipRecord> clips(2);
+  clips[1].frames = long_.info.frames;
+  for (ClipRecord& clip : clips) clip.group = 5;
+  for (const char* name : {"without/one", "without/two"}) {
+    long_.info.name = name;
+    store_->add_take(long_, clips);
+  }
+  store_->commit();
+  store_.reset();
+  write("more.bvh", chain_bvh(8, 90));
+  EXPECT_EQ(add("archive", {"more.bvh"}).added.size(), 1u);
+}
+
+TEST_F(ArchiveTest, NamesAreGivenOnce) {
+  // "x.bvh" is the first one's name, since "x" stands for two files, and the last one's.
+  write("takes/x.bvh", chain_bvh(1, 5));
+  write("takes/x.bvh.bvh", chain_bvh(2, 5));
+  write("takes/sub/y.bvh", chain_bvh(1, 5));
+  fs::create_directories(folder_ / "again");
+  fs::rename(folder_ / "takes/sub/y.bvh", folder_ / "again/x.BVH");
+  const IngestReport report = add("archive", {"takes", "again"});
+  EXPECT_EQ(report.added.size() + report.rejected.size(), 3u);
+  EXPECT_EQ(report.rejected.size(), 1u);
+  EXPECT_TRUE(Archive(folder_ / "archive").verify().ok);
+}
+
+}  // namespace
+}  // namespace reprise
