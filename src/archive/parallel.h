@@ -55,13 +55,13 @@ void produce_in_order(std::size_t count, unsigned jobs, Produce&& produce, Consu
     }
   };
   std::vector<std::jthread> threads;
-  for (std::size_t t = 0; t < std::min<std::size_t>(jobs, count); ++t) threads.emplace_back(work);
   const auto stop = [&] {
     const std::lock_guard lock(mutex);
     stopped = true;
     changed.notify_all();
   };
   try {
+    for (std::size_t t = 0; t < std::min<std::size_t>(jobs, count); ++t) threads.emplace_back(work);
     for (std::size_t i = 0; i < count; ++i) {
       Slot slot;
       {

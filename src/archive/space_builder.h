@@ -25,7 +25,8 @@ class SpaceBuilder {
   SpaceBuilder(ArchiveStore& store, const IngestOptions& options)
       : store_(store), options_(options) {}
 
-  /// One assignment a take, by name. Stores skeletons, proportions and spaces in one transaction.
+  /// One assignment a take, by name. Stores skeletons, proportions and spaces, in one transaction a
+  /// skeleton structure.
   std::map<std::string, SpaceAssignment> build(const std::vector<FreshTake>& takes,
                                                const std::function<void(const std::string&)>& tick);
 

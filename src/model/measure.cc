@@ -1,7 +1,6 @@
 #include "reprise/model/measure.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "reprise/error.h"
@@ -32,7 +31,7 @@ double percentile(const std::vector<Number>& sorted, double p) {
 }
 
 bool names_foot(std::string lower) {
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return lower.find("foot") != std::string::npos || lower.find("toe") != std::string::npos ||
          lower.find("ankle") != std::string::npos;
 }
