@@ -130,22 +130,28 @@ class Ingest {
       for (std::string& name : pending_) report_.added.push_back(std::move(name));
       pending_.clear();
     };
-    produce_in_order(
-        takes.size(), options_.jobs,
-        [&](std::size_t i) { return code_take(takes[i], spaces.at(takes[i].file.name)); },
-        [&](std::size_t i, CodedTake coded) {
-          if (coded.rejected) {
-            report_.rejected.push_back(*coded.rejected);
-          } else if (!coded.kept) {
-            unkept_.push_back(takes[i]);
-          } else {
-            if (stored == 0) store_->begin();
-            store_take(takes[i], coded);
-            bytes += bytes_of_layers(coded.record);
-            if (++stored >= batch_takes || bytes >= batch_bytes) commit();
-          }
-          tick(takes[i].file.name);
-        });
+    try {
+      produce_in_order(
+          takes.size(), options_.jobs,
+          [&](std::size_t i) { return code_take(takes[i], spaces.at(takes[i].file.name)); },
+          [&](std::size_t i, CodedTake coded) {
+            if (coded.rejected) {
+              report_.rejected.push_back(*coded.rejected);
+            } else if (!coded.kept) {
+              unkept_.push_back(takes[i]);
+            } else {
+              if (stored == 0) store_->begin();
+              store_take(takes[i], coded);
+              bytes += bytes_of_layers(coded.record);
+              if (++stored >= batch_takes || bytes >= batch_bytes) commit();
+            }
+            tick(takes[i].file.name);
+          });
+    } catch (const Error& error) {
+      // The batch at hand is coded already.
+      if (error.code() == ErrorCode::interrupted) commit();
+      throw;
+    }
     commit();
   }
 

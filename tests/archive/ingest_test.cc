@@ -39,6 +39,27 @@ TEST_F(ArchiveTest, SecondIngestSkipsWhatIsThere) {
   EXPECT_FALSE(report.skipped.empty());
 }
 
+TEST_F(ArchiveTest, AStoppedIngestKeepsWhatIsCoded) {
+  synthesise("takes", 4, 7, 2);
+  IngestOptions options;
+  options.paths = {folder_ / "takes"};
+  options.fidelity = {FidelityTier::preview, 20};
+  options.jobs = 1;
+  int calls = 0;
+  ingest(folder_ / "whole", options, [&](const Progress&) { return ++calls > 0; });
+  // The last calls are of coded takes: the last but one ends this.
+  int left = calls - 1;
+  try {
+    ingest(folder_ / "stopped", options, [&](const Progress&) { return --left > 0; });
+    ADD_FAILURE() << "not stopped";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::interrupted);
+  }
+  EXPECT_EQ(Archive(folder_ / "stopped").takes().size(), 3u);
+  EXPECT_TRUE(Archive(folder_ / "stopped").verify().ok);
+  EXPECT_EQ(ingest(folder_ / "stopped", options).added.size(), 1u);
+}
+
 TEST_F(ArchiveTest, LaterTakesThatDoNotFitExtendTheAxes) {
   synthesise("takes", 4, 6);
   // A take of the same skeleton that does what no other does.
