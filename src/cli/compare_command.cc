@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
-#include <iterator>
 
 #include "cli/json_output.h"
+#include "cli/motion_input.h"
 #include "cli/text.h"
 #include "reprise/error.h"
 
@@ -23,28 +22,14 @@ bool is_amc(const fs::path& path) {
   return extension == ".amc";
 }
 
-std::string read_stdin() {
-  std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
-  if (text.size() > InputLimits::file_bytes) {
-    throw Error(ErrorCode::failed,
-                fmt::format("a motion file has at most {} bytes", InputLimits::file_bytes),
-                {"stdin", 0});
-  }
-  return text;
-}
-
 /// The take on stdin, in the format of the other file and, if that is AMC, with its skeleton.
-Take read_motion_stdin(const fs::path& other, const ReadOptions& options) {
-  const std::string text = read_stdin();
-  if (!is_amc(other)) return read_bvh(text, "stdin", options.bvh_millimetres_per_unit);
-  const fs::path asf = options.asf ? *options.asf : find_asf(other);
-  const auto skeleton =
-      std::make_shared<const Skeleton>(read_asf(read_whole_file(asf), asf.string()));
-  return read_amc(text, "stdin", skeleton, options.amc_frame_rate);
+Take read_motion_beside(const fs::path& other, const ReadOptions& options) {
+  if (!is_amc(other)) return read_motion_from_stdin(std::nullopt, options);
+  return read_motion_from_stdin(options.asf ? *options.asf : find_asf(other), options);
 }
 
 Take read_side(const fs::path& path, const fs::path& other, const ReadOptions& options) {
-  return path == "-" ? read_motion_stdin(other, options) : read_motion_file(path, options);
+  return path == "-" ? read_motion_beside(other, options) : read_motion_file(path, options);
 }
 
 std::string comparison_text(const Comparison& comparison) {

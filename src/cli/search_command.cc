@@ -1,9 +1,7 @@
 #include "cli/search_command.h"
 
-#include <iostream>
-#include <iterator>
-
 #include "cli/interruption.h"
+#include "cli/motion_input.h"
 #include "cli/text.h"
 #include "reprise/error.h"
 
@@ -16,13 +14,8 @@ constexpr std::uint64_t most_results = 1'000'000'000;
 
 /// A file, or stdin: a BVH, or an AMC where its ASF is given.
 Take read_example(const std::filesystem::path& path, const ReadOptions& options) {
-  if (path != "-") return read_motion_file(path, options);
-  const std::string text((std::istreambuf_iterator<char>(std::cin)),
-                         std::istreambuf_iterator<char>());
-  if (!options.asf) return read_bvh(text, "stdin", options.bvh_millimetres_per_unit);
-  const auto skeleton = std::make_shared<const Skeleton>(
-      read_asf(read_whole_file(*options.asf), options.asf->string()));
-  return read_amc(text, "stdin", skeleton, options.amc_frame_rate);
+  return path == "-" ? read_motion_from_stdin(options.asf, options)
+                     : read_motion_file(path, options);
 }
 
 std::string results_table(const std::vector<SearchResult>& results, bool bold) {
