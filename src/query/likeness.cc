@@ -72,18 +72,36 @@ MotionSummary summary_of(const MotionForm& form) {
   return summary;
 }
 
+/// What the numbers of a mean count in a summary.
+PostureRow mean_scale(const LikenessWeights& weights) {
+  PostureRow scale = PostureRow::Ones();
+  scale.tail<root_speeds>() << weights.summary_speed, weights.summary_speed, weights.summary_turn;
+  return scale;
+}
+
+/// What the numbers of a deviation count.
+PostureRow deviation_scale(const LikenessWeights& weights) {
+  PostureRow scale = PostureRow::Ones();
+  scale.tail<root_speeds>().setConstant(weights.summary_unsteadiness);
+  return scale;
+}
+
 /// Distance of two summaries; of `shared` bones alone.
-double summary_distance(const MotionSummary& a, const MotionSummary& b, const BoneValues& shared) {
+double summary_distance(const MotionSummary& a, const MotionSummary& b, const BoneValues& shared,
+                        const LikenessWeights& weights) {
   PostureRow counted = PostureRow::Ones();
   for (int i = 0; i < plan_bones; ++i) counted.segment<3>(3 * i).setConstant(shared[i]);
-  const auto squares = [&](const PostureRow& row_a, const PostureRow& row_b) {
-    return double{((row_a - row_b).array().square() * counted.array()).sum()};
+  const auto squares = [&](const PostureRow& row_a, const PostureRow& row_b,
+                           const PostureRow& scale) {
+    return double{(((row_a - row_b).array() * scale.array()).square() * counted.array()).sum()};
   };
   const double recurrence =
       double{(shared * (a.restlessness - b.restlessness).square()).sum()} / plan_bones;
-  const double duration = double{a.length - b.length} * K::duration_weight;
-  return std::sqrt(squares(a.mean, b.mean) + squares(a.deviation, b.deviation) +
-                   recurrence * K::recurrence_weight * K::recurrence_weight + duration * duration);
+  const double duration = double{a.length - b.length} * weights.summary_duration;
+  return std::sqrt(squares(a.mean, b.mean, mean_scale(weights)) +
+                   squares(a.deviation, b.deviation, deviation_scale(weights)) +
+                   recurrence * weights.summary_recurrence * weights.summary_recurrence +
+                   duration * duration);
 }
 
 const float per_bone = std::sqrt(1.0f / static_cast<float>(plan_bones));
@@ -113,12 +131,13 @@ PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int co
   return rows;
 }
 
-Eigen::Matrix<float, 1, MotionSummary::numbers> MotionSummary::row() const {
+Eigen::Matrix<float, 1, MotionSummary::numbers> MotionSummary::row(
+    const LikenessWeights& weights) const {
   Eigen::Matrix<float, 1, numbers> row;
-  row << mean, deviation,
+  row << mean.cwiseProduct(mean_scale(weights)), deviation.cwiseProduct(deviation_scale(weights)),
       restlessness.matrix().transpose() *
-          (K::recurrence_weight / std::sqrt(static_cast<float>(plan_bones))),
-      K::duration_weight * length;
+          (weights.summary_recurrence / std::sqrt(static_cast<float>(plan_bones))),
+      weights.summary_duration * length;
   return row;
 }
 
@@ -144,13 +163,13 @@ MotionForm motion_form(const PostureTrack& track, const Stretch& stretch, int sa
   return form;
 }
 
-double unlikeness(const MotionForm& a, const MotionForm& b) {
+double unlikeness(const MotionForm& a, const MotionForm& b, const LikenessWeights& weights) {
   // What one of the bodies does not have is not compared.
   const BoneValues shared = (a.lengths > 0 && b.lengths > 0).cast<float>();
-  const BoneValues weights =
+  const BoneValues active =
       shared * (activity_weights(a.activity) + activity_weights(b.activity)) / 2;
   PostureRow scale = PostureRow::Ones();
-  for (int i = 0; i < plan_bones; ++i) scale.segment<3>(3 * i).setConstant(std::sqrt(weights[i]));
+  for (int i = 0; i < plan_bones; ++i) scale.segment<3>(3 * i).setConstant(std::sqrt(active[i]));
   const CostMatrix scaled_a = a.rows.array().rowwise() * scale.array();
   const CostMatrix scaled_b = b.rows.array().rowwise() * scale.array();
   const double posture = warped_cost(row_distances(scaled_a, scaled_b));
@@ -161,11 +180,11 @@ double unlikeness(const MotionForm& a, const MotionForm& b) {
   };
   const BoneValues shares = (share(a.activity) + share(b.activity)) / 2;
   const double recurrence = double{(shares * (a.recurrence - b.recurrence).square()).sum()} *
-                            K::recurrence_weight * K::recurrence_weight;
-  const double duration = std::log(a.seconds / b.seconds) * K::duration_weight;
+                            weights.course_recurrence * weights.course_recurrence;
+  const double duration = std::log(a.seconds / b.seconds) * weights.course_duration;
   const double course = std::sqrt(posture * posture + recurrence + duration * duration);
-  return (1 - K::summary_part) * course +
-         K::summary_part * summary_distance(a.summary, b.summary, shared);
+  return (1 - weights.summary_part) * course +
+         weights.summary_part * summary_distance(a.summary, b.summary, shared, weights);
 }
 
 double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const PostureTrack& b,

@@ -21,6 +21,7 @@ struct PartExample {
   const Example& example;
   double seconds;
   MotionForm form;
+  const LikenessWeights& weights;  ///< those of takes for a whole example: both are in one list
 };
 
 /// A stretch moved and cut so that it is in a track.
@@ -77,7 +78,7 @@ void compare_part(const PartExample& part, std::size_t take, const Stretch& want
     if (stretch.seconds() <= 0) continue;
     if (part.library[take].name == example.name && covered(stretch, example.stretch) > 0) continue;
     const int samples = static_cast<int>(part.form.rows.rows());
-    double difference = unlikeness(part.form, motion_form(track, stretch, samples));
+    double difference = unlikeness(part.form, motion_form(track, stretch, samples), part.weights);
     // A part of a take is less like a whole example than a take of its length.
     if (example.whole) {
       difference = std::hypot(difference, part_weight * std::log(length / part.seconds));
@@ -106,7 +107,8 @@ std::vector<Match> part_matches(const std::vector<LibraryTake>& library, PlanGro
   if (!group.windows) group.windows.emplace(tracks_of(library, group));
   const double seconds = seconds_of(example);
   const PartExample part = {library, example, seconds,
-                            motion_form(*example.track, example.stretch, samples_for(seconds))};
+                            motion_form(*example.track, example.stretch, samples_for(seconds)),
+                            example.whole ? take_weights : part_weights};
   std::vector<Match> matches;
   for (const Candidate& candidate :
        group.windows->find(*example.track, example.stretch, count, accept)) {

@@ -6,7 +6,7 @@ namespace reprise {
 
 TakeRanking::Description TakeRanking::describe(const PostureTrack& track) {
   const Stretch whole{0, static_cast<double>(track.frames() - 1) / PostureConstants::rate};
-  return motion_form(track, whole, LikenessConstants::samples).summary.row();
+  return motion_form(track, whole, LikenessConstants::samples).summary.row(take_weights);
 }
 
 TakeRanking::TakeRanking(const std::vector<const PostureTrack*>& tracks) {

@@ -13,8 +13,8 @@ std::vector<Match> whole_matches(const std::vector<LibraryTake>& library, PlanGr
   for (const std::size_t i : group.ranking->nearest(*example.track, count, accept)) {
     const std::size_t take = group.takes[i];
     const Stretch stretch = whole_of(library[take].track);
-    matches.push_back(
-        {take, stretch, unlikeness(form, motion_form(library[take].track, stretch, samples))});
+    const MotionForm other = motion_form(library[take].track, stretch, samples);
+    matches.push_back({take, stretch, unlikeness(form, other, take_weights)});
   }
   return matches;
 }

@@ -60,12 +60,35 @@ TEST(Likeness, AMotionIsLikeItselfAndOthersAreAsFarFromBothSides) {
   std::vector<PostureTrack> tracks;
   for (const Take& take : library().takes) tracks.push_back(posture_track(take));
   for (const PostureTrack& a : tracks) {
-    EXPECT_LT(unlikeness(form_of(a), form_of(a)), 0.5);
+    EXPECT_LT(unlikeness(form_of(a), form_of(a), take_weights), 0.5);
     for (const PostureTrack& b : tracks) {
-      EXPECT_NEAR(unlikeness(form_of(a), form_of(b)), unlikeness(form_of(b), form_of(a)), 0.1);
-      if (&a != &b) EXPECT_GT(unlikeness(form_of(a), form_of(b)), 5);
+      EXPECT_NEAR(unlikeness(form_of(a), form_of(b), take_weights),
+                  unlikeness(form_of(b), form_of(a), take_weights), 0.1);
+      if (&a != &b) EXPECT_GT(unlikeness(form_of(a), form_of(b), take_weights), 5);
     }
   }
+}
+
+TEST(Likeness, RowsOfSummariesAreAsFarApartAsTheirMotions) {
+  const MotionForm a = form_of(posture_track(library().takes[0]));
+  const MotionForm b = form_of(posture_track(library().takes[1]));
+  for (LikenessWeights weights : {take_weights, part_weights}) {
+    weights.summary_part = 1;
+    const float apart = (a.summary.row(weights) - b.summary.row(weights)).norm();
+    EXPECT_NEAR(apart, unlikeness(a, b, weights), 1e-3);
+    EXPECT_GT(apart, 5);
+  }
+}
+
+TEST(Likeness, TakesThatTurnToOtherSidesAreLessAlikeThanTakesThatMoveUnsteadily) {
+  MotionForm left = form_of(posture_track(library().takes[0]));
+  constexpr long turning = posture_size - 1;
+  MotionForm right = left, unsteady = left;
+  left.summary.mean[turning] = 50;
+  right.summary.mean[turning] = -50;
+  unsteady.summary.mean[turning] = 50;
+  unsteady.summary.deviation.tail<root_speeds>().array() += 100;
+  EXPECT_GT(unlikeness(left, right, take_weights), 2 * unlikeness(left, unsteady, take_weights));
 }
 
 TEST(PostureTrack, HeadingAndPlaceOnTheGroundDoNotMatter) {
@@ -101,7 +124,7 @@ TEST(PostureTrack, ASingleFrameIsAMotion) {
   take.channels = first;
   const PostureTrack track = posture_track(take);
   EXPECT_EQ(track.frames(), 1);
-  EXPECT_LT(unlikeness(form_of(track), form_of(track)), 0.5);
+  EXPECT_LT(unlikeness(form_of(track), form_of(track), take_weights), 0.5);
   EXPECT_LT(mean_joint_distance(track, whole(track), track, whole(track)), 0.5);
 }
 

@@ -37,8 +37,9 @@ struct SearchResult {
   /// Mean distance of the body's joints along the best time alignment, heading and place taken out,
   /// on a body of one size.
   double distance_mm = 0;
-  /// What the order goes by, least first: a third is the course of the motion, two thirds are mean
-  /// and deviation of its postures, bearing hardly counting (in mm; docs/cli.md).
+  /// What the order goes by, least first: a third (a quarter, for a whole example) is the course of
+  /// the motion, the rest mean and deviation of its postures, bearing hardly counting (in mm;
+  /// docs/cli.md).
   double unlikeness = 0;
 };
 
