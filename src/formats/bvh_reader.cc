@@ -13,6 +13,9 @@ constexpr std::array<std::string_view, 6> channel_names = {"Xposition", "Ypositi
                                                            "Xrotation", "Yrotation", "Zrotation"};
 /// What a frame time of 0 is taken for, as viewers do.
 constexpr double assumed_frame_rate = 60.0;
+/// Frame times in milliseconds of up to 200 frames a second are beyond this. As seconds they would
+/// make days of a minute, and samples of it at even times without end.
+constexpr double least_frame_rate = 0.2;
 
 /// Reads the hierarchy, with a stack of its own instead of recursion.
 class HierarchyReader {
@@ -217,7 +220,7 @@ void read_frame_time(TextLines& lines, Take& take) {
   take.layout.frame_time_text = std::string(*rest);
   take.frame_rate_assumed = *seconds == 0;
   take.frame_rate = take.frame_rate_assumed ? assumed_frame_rate : 1.0 / *seconds;
-  if (!(take.frame_rate > 1e-3 && take.frame_rate < 1e6)) {
+  if (!(take.frame_rate >= least_frame_rate && take.frame_rate < 1e6)) {
     lines.reject("a frame time of " + take.layout.frame_time_text + " s cannot be meant",
                  "frame times are in seconds");
   }

@@ -46,6 +46,7 @@ const Malformed malformed_files[] = {
     {"frames_too_few.bvh", "frames_too_few.bvh", 20, "there are 2"},
     {"no_frame_time.bvh", "no_frame_time.bvh", 18, "Frame Time"},
     {"frame_time_negative.bvh", "frame_time_negative.bvh", 18, "Frame Time"},
+    {"frame_time_in_milliseconds.bvh", "frame_time_in_milliseconds.bvh", 18, "cannot be meant"},
     {"frame_time_absurd.bvh", "frame_time_absurd.bvh", 18, "cannot be meant"},
     {"row_too_short.bvh", "row_too_short.bvh", 20, "8 numbers"},
     {"row_too_long.bvh", "row_too_long.bvh", 20, "10 numbers"},
