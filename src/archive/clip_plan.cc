@@ -20,6 +20,7 @@ RepeatConstants repeat_constants(const ClipPlanConstants& plan) {
   constants.least_clip_s = plan.least_clip_s;
   constants.explained_cover = plan.explained_cover;
   constants.explained_times = 1;
+  constants.least_near_per_s = 0;  // windows are few here
   constants.across_subjects = plan.across_subjects;
   return constants;
 }

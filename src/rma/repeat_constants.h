@@ -34,6 +34,10 @@ struct RepeatConstants {
   /// A member's greatest mean joint distance to its group's reference (mm), where similar_mm holds
   /// for all of the reference; less in proportion where it is narrowed. Measured.
   float member_mm = 60;
+  /// A stretch is held against a clip where this many places a second of the clip are near to
+  /// places in it (of a clip's windows, five begin a second): most stretches that a place or two
+  /// lead to repeat nothing, and the larger a library is, the more there are. Measured.
+  double least_near_per_s = 3.5;
   /// The shortest clip that is reported (s).
   double least_clip_s = 0.5;
   /// No group is looked for around a clip of which this part is in this many groups already: that

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -23,6 +24,13 @@ struct Stretch {
   std::size_t take = 0;
   long begin = 0;
   long end = 0;
+};
+
+/// A stretch around one place that is near to a place of a clip.
+struct ReachedPart {
+  long begin = 0;
+  long end = 0;
+  long from = 0;  ///< the place of the clip
 };
 
 class GroupFinder {
@@ -162,23 +170,29 @@ void add_members(const PostureLibrary& library, const Occurrence& clip, const Po
 }
 
 std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
-  std::map<std::size_t, std::vector<std::pair<long, long>>> reached;
+  std::map<std::size_t, std::vector<ReachedPart>> reached;
   const long length = clip.end - clip.begin;
   const long reach = RepeatConstants::steepest * length;
   const auto& near = near_[clip.take];
   const auto first = std::ranges::lower_bound(near, clip.begin, {}, &NearPair::sample);
   for (auto at = first; at != near.end() && at->sample < clip.end; ++at) {
     const long rows = library_.postures[at->other_take].rows();
-    reached[at->other_take].emplace_back(std::max(0L, at->other_sample - reach),
-                                         std::min(rows, at->other_sample + reach));
+    reached[at->other_take].push_back({std::max(0L, at->other_sample - reach),
+                                       std::min(rows, at->other_sample + reach), at->sample});
   }
+  const auto least_places =
+      std::lround(constants_.least_near_per_s / constants_.rate * static_cast<double>(length));
   std::vector<Stretch> stretches;
   for (auto& [take, parts] : reached) {
-    std::sort(parts.begin(), parts.end());
-    stretches.push_back({take, parts.front().first, parts.front().second});
-    for (const auto& [begin, end] : parts) {
-      if (begin > stretches.back().end) stretches.push_back({take, begin, end});
-      stretches.back().end = std::max(stretches.back().end, end);
+    std::ranges::sort(parts, {}, [](const ReachedPart& p) { return std::pair(p.begin, p.end); });
+    for (std::size_t p = 0; p < parts.size();) {
+      Stretch stretch{take, parts[p].begin, parts[p].end};
+      std::set<long> places;
+      for (; p < parts.size() && parts[p].begin <= stretch.end; ++p) {
+        stretch.end = std::max(stretch.end, parts[p].end);
+        places.insert(parts[p].from);
+      }
+      if (static_cast<long>(places.size()) >= least_places) stretches.push_back(stretch);
     }
   }
   return stretches;
