@@ -40,7 +40,8 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
     throw Error(ErrorCode::failed, "there is no such file or folder", {path.string()});
   }
   if (!fs::is_directory(status)) {
-    found.emplace_back(path, path.filename());
+    // `folder/*` names skeletons, too; they are read with the AMC files beside them.
+    if (!is_skeleton_file(path)) found.emplace_back(path, path.filename());
     return found;
   }
   const fs::directory_iterator probe(path, error);

@@ -21,12 +21,9 @@ bool colour_wanted(const ConsoleOptions& options) {
   return options.color == "auto";
 }
 
-void write(std::FILE* stream, std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stream);
-}
-
 void write_line(std::string_view line) {
-  write(stderr, std::string(line) + "\n");
+  const std::string text = std::string(line) + "\n";
+  std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
 
@@ -38,16 +35,22 @@ Console::Console(const ConsoleOptions& options)
       bold_messages_(colour_wanted(options) && isatty(STDERR_FILENO) == 1) {}
 
 void Console::result(std::string_view text) const {
-  if (!options_.json) write(stdout, text);
+  if (!options_.json) to_stdout(text);
 }
 
 void Console::document(const Json& json) const {
   if (!options_.json) return;
   // A name need not be UTF-8, a document must be.
-  write(stdout, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  to_stdout(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-void Console::bytes(std::string_view bytes) const { write(stdout, bytes); }
+void Console::bytes(std::string_view bytes) const { to_stdout(bytes); }
+
+void Console::to_stdout(std::string_view text) const {
+  errno = 0;
+  const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
+  if (written < text.size() && stdout_error_ == 0) stdout_error_ = errno;
+}
 
 void Console::message(std::string_view line) const {
   if (!options_.quiet) write_line(line);
@@ -68,7 +71,13 @@ std::FILE* Console::progress_terminal() const {
 void Console::flush() const {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  if (errno == ENOSPC) throw Error(ErrorCode::limit, "the disk that stdout goes to is full");
+  const int error = stdout_error_ != 0 ? stdout_error_ : errno;
+  if (error == ENOSPC || error == EDQUOT) {
+    throw Error(ErrorCode::limit, "the disk that stdout goes to is full");
+  }
+  if (error == EFBIG) {
+    throw Error(ErrorCode::limit, "the file that stdout goes to reached the limit of its size");
+  }
   throw Error(ErrorCode::failed, "the result could not be written to stdout");
 }
 

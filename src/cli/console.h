@@ -51,7 +51,10 @@ class Console {
   void flush() const;
 
  private:
+  void to_stdout(std::string_view text) const;
+
   ConsoleOptions options_;
+  mutable int stdout_error_ = 0;  ///< errno of what stdout did not take first
   bool bold_results_ = false;
   bool bold_messages_ = false;
 };

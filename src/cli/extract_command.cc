@@ -190,7 +190,7 @@ ExitCode ExtractCommand::run(Console& console) {
     InterruptionGuard::check();
     bar.show({i, plan.size(), plan[i].take.name});
     const MotionText motion = motion_text(archive, plan[i], request_.fidelity);
-    if (!folder_.empty()) fs::create_directories(targets[i].parent_path());
+    if (!folder_.empty()) make_folder_of(targets[i]);
     const std::vector<fs::path> files = writer.write(*motion.skeleton, motion.text, targets[i]);
     for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
     entries.push_back(entry_of(plan[i], files));

@@ -8,7 +8,9 @@ namespace reprise::cli {
 class ListCommand : public Command {
  public:
   std::string name() const override { return "list"; }
-  std::string description() const override { return "List takes, clips or skeletons"; }
+  std::string description() const override {
+    return "List takes, clips, behaviour groups or skeletons";
+  }
   void setup(CLI::App& app) override;
   void check() override;
   ExitCode run(Console& console) override;

@@ -2,6 +2,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <csignal>
 #include <iostream>
 #include <string_view>
 
@@ -107,6 +108,9 @@ ExitCode dispatch(int argc, char** argv, ConsoleOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow further is an error of the write then, which leaves the archive whole
+  // and is told, instead of the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
   ConsoleOptions options;
   options.json = asks_for_json(argc, argv);
   try {

@@ -115,6 +115,16 @@ FrameRange frames_of(const Interval<double>& interval, FrameRange whole, double 
   Interval<long> frames;
   if (interval.begin) frames.begin = first_frame_from(*interval.begin, frame_rate);
   if (interval.end) frames.end = first_frame_from(*interval.end, frame_rate);
+  const long begin = frames.begin.value_or(whole.begin);
+  const long end = frames.end.value_or(whole.end);
+  if (begin < whole.begin || end > whole.end) {
+    throw Error(ErrorCode::failed,
+                fmt::format("{:g}:{:g} s are not within {:g}:{:g} s, which is what there is",
+                            interval.begin.value_or(static_cast<double>(begin) / frame_rate),
+                            interval.end.value_or(static_cast<double>(end) / frame_rate),
+                            static_cast<double>(whole.begin) / frame_rate,
+                            static_cast<double>(whole.end) / frame_rate));
+  }
   return frames_of(frames, whole);
 }
 

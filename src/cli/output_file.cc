@@ -20,7 +20,7 @@ namespace reprise::cli {
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, std::string_view what, int number) {
-  const bool full = number == ENOSPC || number == EDQUOT;
+  const bool full = number == ENOSPC || number == EDQUOT || number == EFBIG;
   throw Error(full ? ErrorCode::limit : ErrorCode::failed,
               fmt::format("{}: {}", what, std::strerror(number)), {path.string(), 0});
 }
@@ -133,6 +133,12 @@ void refuse_archive(const fs::path& path, const fs::path& archive) {
   if (!fs::equivalent(path, archive, error) || error) return;
   throw Error(ErrorCode::failed, "this is the archive itself, and is not replaced",
               {path.string(), 0});
+}
+
+void make_folder_of(const fs::path& file) {
+  std::error_code problem;
+  fs::create_directories(file.parent_path(), problem);
+  if (problem) fail(file.parent_path(), "the folder cannot be made", problem.value());
 }
 
 bool file_has_content(const fs::path& path, std::string_view content) {

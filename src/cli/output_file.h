@@ -27,6 +27,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 /// replaces it.
 void refuse_archive(const std::filesystem::path& path, const std::filesystem::path& archive);
 
+/// Makes the folder that `file` shall be in, with those above it. Throws Error (failed or limit).
+void make_folder_of(const std::filesystem::path& file);
+
 /// True if the file is there and has exactly this content.
 bool file_has_content(const std::filesystem::path& path, std::string_view content);
 

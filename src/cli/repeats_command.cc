@@ -59,7 +59,7 @@ void RepeatsCommand::setup(CLI::App& app) {
              "Only the repeats of the part of ID that begins here, in seconds");
   add_number(app, "--to", to_, 0, most_seconds, "and ends here");
   app.add_flag("--across-subjects", across_subjects_,
-               "Only motions that two subjects or more have");
+               "Only motions that two subjects or more have; wider limits between subjects");
   add_number(app, "--min-seconds", least_seconds_, 0, most_seconds,
              "Only occurrences at least this long");
   add_whole_number(app, "--jobs", jobs_, 1, 1024, "Worker threads (default: all cores)");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/interruption.h"
 #include "cli/json_output.h"
@@ -31,7 +32,8 @@ std::string report_text(const VerifyReport& report, bool measured) {
   for (const Damage& damage : report.damaged) {
     text += printable(fmt::format("{}: {}", damage.id, damage.why)) + "\n";
   }
-  if (report.takes > 0) {
+  // Each damage is of one take where takes were measured.
+  if (std::cmp_greater(report.takes, measured ? report.damaged.size() : 0)) {
     text += fmt::format("error {}: {}\n", measured ? "against the sources" : "as stored",
                         format_errors(report.error_mm));
   }
@@ -85,8 +87,10 @@ ExitCode VerifyCommand::run(Console& console) {
   console.document(document_of(report));
   if (report.ok) return exit_done;
   const ErrorCode code = verdict(report);
-  console.complaint(code == ErrorCode::damaged ? "reprise: the archive is damaged"
-                                               : "reprise: some takes are outside their fidelity");
+  console.complaint(
+      code == ErrorCode::damaged
+          ? "reprise: the archive is damaged"
+          : "reprise: some takes are outside their fidelity, or could not be measured");
   return static_cast<int>(code);
 }
 

@@ -213,7 +213,8 @@ long read_frame_count(TextLines& lines) {
 }
 
 void read_frame_time(TextLines& lines, Take& take) {
-  const auto rest = after_keyword(next_filled_line(lines, "'Frame Time:'"), "Frame Time");
+  auto rest = after_keyword(next_filled_line(lines, "'Frame Time:'"), "Frame");
+  if (rest) rest = after_keyword(*rest, "Time");
   const auto seconds = rest ? to_number(*rest) : std::nullopt;
   if (!seconds || *seconds < 0)
     lines.reject("after 'Frames:' comes 'Frame Time:' with the seconds of a frame");

@@ -1,6 +1,8 @@
 #include "reprise/formats/motion_file.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <vector>
 
@@ -27,13 +29,15 @@ bool is_motion_file(const fs::path& path) {
   return has_extension(path, ".bvh") || has_extension(path, ".amc");
 }
 
+bool is_skeleton_file(const fs::path& path) { return has_extension(path, ".asf"); }
+
 fs::path find_asf(const fs::path& amc) {
   const fs::path folder = amc.parent_path().empty() ? fs::path(".") : amc.parent_path();
   const std::string stem = amc.stem().string();
   std::vector<fs::path> skeletons;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (has_extension(entry.path(), ".asf")) skeletons.push_back(entry.path());
+    if (is_skeleton_file(entry.path())) skeletons.push_back(entry.path());
   }
   for (const std::string& name : {stem, stem.substr(0, stem.find('_'))}) {
     for (const fs::path& path : skeletons) {
@@ -51,7 +55,7 @@ std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) reject(path, "this is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) reject(path, "the file cannot be opened");
+  if (!file) reject(path, std::string("the file cannot be opened: ") + std::strerror(errno));
   const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > InputLimits::file_bytes) {
     reject(path, "the file is larger than " + std::to_string(InputLimits::file_bytes) + " bytes");
@@ -69,6 +73,9 @@ std::string read_whole_file(const fs::path& path) {
 
 Take read_motion_file(const fs::path& path, const ReadOptions& options) {
   if (!is_motion_file(path)) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) reject(path, "there is no such file");
+    if (fs::is_directory(path, ignored)) reject(path, "this is a folder, not a file");
     reject(path, "the name ends neither in .bvh nor in .amc", "only BVH and ASF/AMC are read");
   }
   const std::string text = read_whole_file(path);

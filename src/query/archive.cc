@@ -48,6 +48,11 @@ std::string candidate_list(const std::vector<std::string>& names) {
               {}, "give more of it");
 }
 
+[[noreturn]] void throw_unknown(const std::string& what, const std::string& id) {
+  throw Error(ErrorCode::not_found, "there is no " + what + " '" + id + "'", {},
+              "reprise list shows the names");
+}
+
 }  // namespace
 
 Archive::Archive(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
@@ -106,7 +111,7 @@ TakeInfo Archive::find_take(const std::string& id) const {
   if (const auto exact = impl_->store.find_take(id)) return exact->info;
   const std::vector<std::string> names = impl_->store.take_names_ending_in(id, most_candidates + 1);
   if (names.size() > 1) throw_ambiguous(id, names);
-  if (names.empty()) throw Error(ErrorCode::not_found, "there is no take '" + id + "'");
+  if (names.empty()) throw_unknown("take", id);
   const auto found = impl_->store.find_take(names[0]);
   if (!found) throw Error(ErrorCode::damaged, "the archive is damaged: its index of names");
   return found->info;
@@ -140,7 +145,7 @@ Archive::Selection Archive::find(const std::string& id) const {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::not_found || !may_be_clip_id(id)) throw;
     const std::vector<ClipInfo> clips = find_clips(id);
-    if (clips.empty()) throw Error(ErrorCode::not_found, "there is no take or clip '" + id + "'");
+    if (clips.empty()) throw_unknown("take or clip", id);
     const ClipInfo& clip = clips[0];
     return {find_take(clip.take), {clip.first_frame, clip.first_frame + clip.frames}, clip};
   }

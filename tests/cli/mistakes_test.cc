@@ -47,6 +47,30 @@ TEST_F(MistakesTest, AFolderOrADeviceInPlaceOfAFileIsCalledWhatItIs) {
   EXPECT_EQ(device.err.find("--overwrite"), std::string::npos) << device.err;
 }
 
+TEST_F(MistakesTest, WhatIsNotThereIsSaidInItsOwnWords) {
+  make_library();
+  const std::string take = take_names().front();
+  EXPECT_NE(reprise({"info", "lib.rpz", "no-such-take"}).err.find("reprise list"),
+            std::string::npos);
+  EXPECT_NE(reprise({"search", "lib.rpz", "--like", "nowhere"}).err.find("no such file"),
+            std::string::npos);
+  EXPECT_NE(
+      reprise({"extract", "lib.rpz", take, "-d", "lib.rpz"}).err.find("folder cannot be made"),
+      std::string::npos);
+  const std::string late = reprise({"repeats", "lib.rpz", take, "--to", "1000"}).err;
+  EXPECT_NE(late.find(":1000 s are not within 0:"), std::string::npos) << late;
+}
+
+TEST_F(MistakesTest, SkeletonsAmongTheFilesAreNoMistake) {
+  ASSERT_EQ(reprise({"synth", "amc", "--takes", "1", "--seconds", "1", "--subjects", "1",
+                     "--format", "amc"})
+                .exit_code,
+            0);
+  const Outcome outcome = reprise(
+      {"ingest", "amc.rpz", "amc/s01/s01.asf", "amc/s01/s01_01.amc", "--fidelity", "exact"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
 TEST_F(MistakesTest, WhatIsWrongWithASourceIsNoDamageOfTheArchive) {
   make_library();
   const std::string take = take_names().front();

@@ -110,6 +110,11 @@ TEST(Facts, RootOfAnAsfStartsWhereItSays) {
   EXPECT_NEAR((skeleton.joints[0].axis.col(0) - Eigen::Vector3d::UnitY()).norm(), 0, 1e-12);
 }
 
+TEST(Facts, FrameTimeMayHaveTabs) {
+  const std::string tabs = replaced(plain_bvh(), "Frame Time: ", "Frame\tTime:\t");
+  EXPECT_EQ(read_bvh(tabs, "s").frame_rate, sample().frame_rate);
+}
+
 TEST(Facts, FrameTimeKeepsItsText) {
   EXPECT_NE(write_motion(sample()).find("Frame Time: 0.0083333\n"), std::string::npos);
   const std::string exact = replaced(plain_bvh(), "0.0083333", "8.333333333e-3");

@@ -50,6 +50,9 @@ Skeleton read_bvh_skeleton(std::string_view text, const std::string& file,
 /// True for the extensions .bvh and .amc, in any case.
 bool is_motion_file(const std::filesystem::path& path);
 
+/// Whether a file's name ends as those of ASF skeletons do, in any case.
+bool is_skeleton_file(const std::filesystem::path& path);
+
 /// The ASF of an AMC: its own name with .asf, else the file name up to the first '_' with .asf,
 /// else the only ASF in its folder. Throws Error (rejected_input) that says what was looked for.
 std::filesystem::path find_asf(const std::filesystem::path& amc);
