@@ -16,7 +16,8 @@ TEST(SimilarPostureTrace, EndsWhereTheMotionsPart) {
       {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2), made_up_take(3, 0, 3)}),
        joined({made_up_take(4, 0, 2), made_up_take(1, 0, 4, 0.5), made_up_take(5, 0, 2)})},
       constants);
-  const SimilarPath path = trace_path(library.side(0, 1), library.side(1, 0), {60, 60}, false, constants);
+  const SimilarPath path =
+      trace_path(library.side(0, 1), library.side(1, 0), {60, 60}, false, constants);
   ASSERT_FALSE(path.pixels.empty());
   EXPECT_NEAR(static_cast<double>(path.pixels.front().x), 45, 3);
   EXPECT_NEAR(static_cast<double>(path.pixels.back().x), 74, 3);
@@ -28,7 +29,8 @@ TEST(SimilarPostureTrace, EndsWhereTheMotionsPart) {
 
 TEST(SimilarPostureTrace, RisesInBothByStepsThatAreNotTooSteep) {
   const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 6, 0.7)}, constants);
-  const SimilarPath path = trace_path(library.side(0, 1), library.side(1, 0), {30, 43}, false, constants);
+  const SimilarPath path =
+      trace_path(library.side(0, 1), library.side(1, 0), {30, 43}, false, constants);
   ASSERT_GT(path.pixels.size(), 10u);
   for (std::size_t i = 1; i < path.pixels.size(); ++i) {
     const long x = path.pixels[i].x - path.pixels[i - 1].x;
@@ -45,7 +47,9 @@ TEST(SimilarPostureTrace, CrossesAShortBridgeOnly) {
   };
   const auto end_with_gap = [&](double seconds) {
     const PostureLibrary library({made_up_take(1, 0, 4 + seconds), with_gap(seconds)}, constants);
-    return trace_path(library.side(0, 1), library.side(1, 0), {10, 10}, false, constants).pixels.back().x;
+    return trace_path(library.side(0, 1), library.side(1, 0), {10, 10}, false, constants)
+        .pixels.back()
+        .x;
   };
   EXPECT_GT(end_with_gap(0.07), 50);
   EXPECT_LT(end_with_gap(1.5), 35);
@@ -53,7 +57,8 @@ TEST(SimilarPostureTrace, CrossesAShortBridgeOnly) {
 
 TEST(SimilarPostureTrace, KeepsAwayFromTheDiagonal) {
   const PostureLibrary library({made_up_take(1, 0, 4)}, constants);
-  const SimilarPath path = trace_path(library.side(0, 0), library.side(0, 0), {10, 20}, true, constants);
+  const SimilarPath path =
+      trace_path(library.side(0, 0), library.side(0, 0), {10, 20}, true, constants);
   for (const PlotPixel& pixel : path.pixels) EXPECT_GE(pixel.y - pixel.x, 6);
   EXPECT_TRUE(
       trace_path(library.side(0, 0), library.side(0, 0), {10, 12}, true, constants).pixels.empty());
