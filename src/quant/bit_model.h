@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "quant/range_coder.h"
 
 namespace reprise {
+
+/// More decisions than a byte can hold: one costs log2(65536 / (65536 - least_probability)) bits or
+/// more, which makes 15,201 a byte.
+constexpr std::size_t most_decisions_per_byte = 1u << 14;
 
 /// How fast counters and mixers learn, and where weights start; docs/findings/ has what was tried.
 struct Learning {

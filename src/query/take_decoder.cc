@@ -1,5 +1,7 @@
 #include "query/take_decoder.h"
 
+#include <algorithm>
+
 #include "exact/text_codec.h"
 #include "quant/take_codec.h"
 #include "refine/refinement.h"
@@ -24,6 +26,23 @@ bool keeps(const LayerRecord& layer, FidelityTier tier) {
     default:
       return layer.kind == LayerKind::text;
   }
+}
+
+/// The number of frames decides how much memory a decoder takes. It can be no more than the text
+/// that the take is said to come from had room for, and that text no larger than texts may be.
+void check_frames(const TakeRecord& record, const Skeleton& skeleton) {
+  const auto channels = static_cast<std::uint64_t>(skeleton.channel_count);
+  const std::uint64_t numbers =
+      skeleton.format == MotionFormat::bvh ? channels : channels / InputLimits::channels_per_value;
+  // Each has a digit, and a space or the end of the line after it.
+  const std::uint64_t frame_bytes = std::max<std::uint64_t>(1, 2 * numbers);
+  const auto frames = static_cast<std::uint64_t>(record.info.frames);
+  if (record.info.text_bytes <= InputLimits::file_bytes &&
+      frames <= record.info.text_bytes / frame_bytes) {
+    return;
+  }
+  throw Error(ErrorCode::damaged, "the archive is damaged: take '" + record.info.name +
+                                      "' has more frames than a text can hold");
 }
 
 /// What a BVH begins with is stored with its skeleton.
@@ -86,6 +105,7 @@ Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t la
                   std::string* text) {
   Take take = empty_take(archive.proportions(record.proportions), record.info.format);
   take.name = record.info.name;
+  check_frames(record, *take.skeleton);
   take.channels = channels_of(archive, record, take, layer, text);
   if (take.frames() != record.info.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +

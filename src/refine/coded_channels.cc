@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contacts/contact_stage.h"
+#include "quant/bit_model.h"
 #include "quant/catmull_rom.h"
 #include "quant/contact_codec.h"
 #include "refine/pose_metric.h"
@@ -18,6 +19,15 @@ using Eigen::MatrixXd;
 
 [[noreturn]] void throw_damaged() {
   throw Error(ErrorCode::damaged, "the motion of a take is not as it was written");
+}
+
+/// Whether `bytes` can hold so many frames: each knot is a decision, and what is stored as it is
+/// takes more. What an encoder leaves out at the end counts, too.
+bool can_hold(std::size_t bytes, const Skeleton& skeleton, long frames) {
+  constexpr std::size_t most_left_out = 32;
+  const std::size_t decisions = (bytes + most_left_out) * most_decisions_per_byte;
+  const auto channels = static_cast<std::size_t>(std::max(1, skeleton.channel_count));
+  return static_cast<std::size_t>(frames) <= decisions / channels;
 }
 
 }  // namespace
@@ -105,6 +115,8 @@ std::size_t CodedChannels::contact_bytes() const {
 
 CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& take,
                                     std::span<const std::uint8_t> bytes) {
+  // The number of frames is the row's; it decides how much memory is taken.
+  if (!can_hold(bytes.size(), skeleton, take.frames)) throw_damaged();
   RangeDecoder decoder(bytes);
   TimeScales time;
   time.levels = static_cast<int>(decoder.decode_plain(TimeScales::bits));

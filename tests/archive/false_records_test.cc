@@ -96,6 +96,27 @@ TEST_F(FalseRecords, NumbersThatNoMotionHasAreDamage) {
   expect_damage(short_, "a joint at 1e300");
 }
 
+TEST_F(FalseRecords, FramesThatNoTextHasAreDamage) {
+  short_.info.frames = long{1} << 40;
+  expect_damage(short_, "a trillion frames of few bytes");
+}
+
+TEST_F(FalseRecords, TextsThatNoFileHasAreDamage) {
+  short_.info.frames = long{1} << 40;
+  short_.info.text_bytes = std::uint64_t{1} << 60;
+  expect_damage(short_, "a text of an exabyte");
+}
+
+TEST_F(FalseRecords, FramesThatNoLayerHoldsAreDamage) {
+  short_.info.frames = 100'000'000;
+  short_.info.text_bytes = InputLimits::file_bytes;
+  const Take take = read_motion_file(folder_ / "takes/short.bvh");
+  short_.layers = {
+      {LayerKind::refinement, 10.0,
+       CodedChannels(*take.skeleton, {take.frames(), take.frame_rate}, {0, 0}).encode()}};
+  expect_damage(short_, "many frames of a refinement of few bytes");
+}
+
 TEST_F(FalseRecords, ClipsWithoutFramesAreNoHindrance) {
   // The first one of a take has no frames and the group of the one after it.
   std::vector<ClipRecord> clips(2);

@@ -113,6 +113,16 @@ TEST_F(BitMixerTest, CostIsWhatCodingTakes) {
   EXPECT_NEAR(cost / bits, 1.0, 0.01);
 }
 
+TEST_F(BitMixerTest, AByteHoldsOnlySoManyDecisions) {
+  constexpr std::size_t decisions = 1'000'000;
+  BitMixer writer(sizes, 2);
+  RangeEncoder encoder;
+  for (std::size_t i = 0; i < decisions; ++i) writer.encode(encoder, {}, false);
+  const std::size_t bytes = encoder.finish().size();
+  EXPECT_GT(bytes * most_decisions_per_byte, decisions);
+  EXPECT_LT(bytes * most_decisions_per_byte, 2 * decisions) << "what is promised is far off";
+}
+
 TEST_F(BitMixerTest, PriorIsTheSameForWhoSavesAndWhoLoads) {
   BitMixer learned(sizes, 2);
   for (int i = 0; i < 3000; ++i) {
