@@ -21,6 +21,10 @@ enum class ErrorCode : int {
   interrupted = 130,
 };
 
+/// What an errno of the system means: limit where a disk, a quota or the size of a file is at its
+/// limit, else failed.
+ErrorCode code_of_errno(int number);
+
 /// Where in a user's file an error was seen. `line` is 1-based; 0 where no line is meant.
 struct SourcePlace {
   std::string file;

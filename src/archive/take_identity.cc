@@ -13,10 +13,14 @@ namespace {
 SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
                             std::string& digest) {
   std::string text = read_whole_file(file.path);
+  const std::string name = file.path.string();
+  if (begins_as_archive(text)) {
+    throw Error(ErrorCode::rejected_input, "this is a Reprise archive, not a motion file", {name},
+                "reprise extract takes motion out of it");
+  }
   Hasher hasher;
   hasher.add(text);
   Take take;
-  const std::string name = file.path.string();
   std::string extension = file.path.extension().string();
   for (char& c : extension) c = static_cast<char>(c | 0x20);
   if (extension == ".amc") {

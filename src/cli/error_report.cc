@@ -61,9 +61,9 @@ Error as_error(const std::exception& exception) {
     return Error(ErrorCode::limit, "out of memory");
   }
   if (const auto* system = dynamic_cast<const std::system_error*>(&exception)) {
-    const bool full = system->code() == std::errc::no_space_on_device;
     const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(system);
-    return Error(full ? ErrorCode::limit : ErrorCode::failed, system->code().message(),
+    return Error(code_of_errno(system->code().default_error_condition().value()),
+                 system->code().message(),
                  {file != nullptr ? file->path1().string() : std::string(), 0});
   }
   return Error(ErrorCode::failed, exception.what());

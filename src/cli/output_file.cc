@@ -20,9 +20,8 @@ namespace reprise::cli {
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, std::string_view what, int number) {
-  const bool full = number == ENOSPC || number == EDQUOT || number == EFBIG;
-  throw Error(full ? ErrorCode::limit : ErrorCode::failed,
-              fmt::format("{}: {}", what, std::strerror(number)), {path.string(), 0});
+  throw Error(code_of_errno(number), fmt::format("{}: {}", what, std::strerror(number)),
+              {path.string(), 0});
 }
 
 [[noreturn]] void refuse_special(const fs::path& path) {

@@ -1,5 +1,6 @@
 #include "reprise/error.h"
 
+#include <cerrno>
 #include <utility>
 
 namespace reprise {
@@ -17,6 +18,11 @@ std::string sentence(const std::string& reason, const SourcePlace& place,
 }
 
 }  // namespace
+
+ErrorCode code_of_errno(int number) {
+  return number == ENOSPC || number == EDQUOT || number == EFBIG ? ErrorCode::limit
+                                                                 : ErrorCode::failed;
+}
 
 Error::Error(ErrorCode code, const std::string& reason, SourcePlace place, std::string advice)
     : std::runtime_error(sentence(reason, place, advice)),

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "formats/whole_file.h"
 #include "query/motion_library.h"
-#include "reprise/error.h"
 
 namespace reprise {
 namespace {
@@ -105,6 +105,8 @@ bool read_take(CacheReader& reader, LibraryTake& take) {
 
 /// The whole file if it is a whole cache, else nothing.
 std::string read_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (text.size() < magic.size() + sizeof(Digest) + 8 + checksum_bytes ||
@@ -159,25 +161,7 @@ void write_feature_cache(const std::filesystem::path& file, const Digest& conten
   writer.value(content);
   writer.value(static_cast<std::uint64_t>(takes.size()));
   for (const LibraryTake& take : takes) write_take(writer, take);
-  const std::string text = writer.finish();
-  std::filesystem::path unfinished = file;
-  unfinished += ".new";
-  {
-    std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.close();
-    if (!stream) {
-      std::error_code ignored;
-      std::filesystem::remove(unfinished, ignored);
-      throw Error(ErrorCode::failed, "the search cache cannot be written", {file.string()});
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(unfinished, file, error);
-  if (error) {
-    throw Error(ErrorCode::failed, "the search cache cannot be written: " + error.message(),
-                {file.string()});
-  }
+  write_whole_file(file, writer.finish(), "the search cache cannot be written");
 }
 
 }  // namespace reprise

@@ -28,7 +28,8 @@ std::vector<LibraryTake> read_library(const std::filesystem::path& archive,
 /// then. Names and subjects are left out.
 std::vector<LibraryTake> read_feature_cache(const std::filesystem::path& file);
 
-/// Replaces the file as a whole. `content` is the archive's content digest. Throws Error (failed).
+/// Replaces the file as a whole. `content` is the archive's content digest. Throws Error (failed,
+/// limit).
 void write_feature_cache(const std::filesystem::path& file, const Digest& content,
                          const std::vector<LibraryTake>& takes);
 /// The archive's content digest that a cache says it was made for; none if it is no cache.

@@ -45,11 +45,14 @@ void check_schema(const Database& database) {
     throw_damaged(database.path(), "the tables are not those of a Reprise archive");
 }
 
-/// A number of the file's header, high byte first.
-std::int64_t header_number(const std::array<char, 100>& header, std::size_t at) {
+/// SQLite's header of a file.
+constexpr std::size_t header_bytes = 100;
+constexpr std::size_t version_at = 60, application_at = 68;
+
+/// A number of the header, high byte first.
+std::int64_t header_number(std::string_view header, std::size_t at) {
   std::uint32_t value = 0;
-  for (std::size_t b = 0; b < 4; ++b)
-    value = value << 8 | static_cast<std::uint8_t>(header[at + b]);
+  for (const char byte : header.substr(at, 4)) value = value << 8 | static_cast<std::uint8_t>(byte);
   return static_cast<std::int32_t>(value);
 }
 
@@ -57,15 +60,11 @@ std::int64_t header_number(const std::array<char, 100>& header, std::size_t at) 
 /// Through SQLite's own descriptor: closing another one would drop the locks of this process.
 void check_header(const Database& database) {
   const fs::path& path = database.path();
-  constexpr std::string_view magic("SQLite format 3\0", 16);
-  constexpr std::size_t version_at = 60, application_at = 68;
-  std::array<char, 100> header{};
-  const int read = database.read_file(std::as_writable_bytes(std::span(header)), 0);
+  std::array<char, header_bytes> bytes{};
+  const int read = database.read_file(std::as_writable_bytes(std::span(bytes)), 0);
   if (read != SQLITE_OK && read != SQLITE_IOERR_SHORT_READ) database.fail(read);
-  if (!std::string_view(header.data(), header.size()).starts_with(magic) ||
-      header_number(header, application_at) != application_id) {
-    throw_damaged(path, "this is not a Reprise archive");
-  }
+  const std::string_view header(bytes.data(), bytes.size());
+  if (!begins_as_archive(header)) throw_damaged(path, "this is not a Reprise archive");
   const std::int64_t version = header_number(header, version_at);
   if (version / 1000 > format_version / 1000) {
     throw Error(ErrorCode::newer_version,
@@ -115,7 +114,7 @@ class TemporaryFile {
     ::unlink(path_.c_str());
     const int descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) {
-      throw Error(errno == ENOSPC ? ErrorCode::limit : ErrorCode::failed,
+      throw Error(code_of_errno(errno),
                   std::string("the archive cannot be opened for writing: ") + std::strerror(errno),
                   {beside.string()});
     }
@@ -136,7 +135,11 @@ bool create_if_missing(const fs::path& path) {
   const bool there = fs::exists(path);
   if (there && (!fs::is_regular_file(path) || fs::file_size(path) > 0)) return false;
   const TemporaryFile whole(path);
-  create_archive(whole.path());
+  try {
+    create_archive(whole.path());
+  } catch (const Error& error) {  // told of the file that is meant
+    throw Error(error.code(), error.reason(), {path.string()}, error.advice());
+  }
   // Another writer may have come first; a link, where there are links, does not replace its file.
   if (!there && ::link(whole.path().c_str(), path.c_str()) == 0) return true;
   if (!there && errno == EEXIST) return false;
@@ -144,6 +147,12 @@ bool create_if_missing(const fs::path& path) {
 }
 
 }  // namespace
+
+bool begins_as_archive(std::string_view start) {
+  constexpr std::string_view magic("SQLite format 3\0", 16);
+  return start.size() >= header_bytes && start.starts_with(magic) &&
+         header_number(start, application_at) == application_id;
+}
 
 ArchiveStore::ArchiveStore(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ArchiveStore::~ArchiveStore() = default;

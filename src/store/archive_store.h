@@ -12,6 +12,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reprise/archive.h"
@@ -20,6 +21,9 @@ namespace reprise {
 
 using Bytes = std::vector<std::uint8_t>;
 using Digest = std::array<std::uint8_t, 16>;  ///< BLAKE2b-128
+
+/// Whether a file that begins so is a Reprise archive, of any version.
+bool begins_as_archive(std::string_view start);
 
 /// Joints, hierarchy and channels that takes share (same_structure).
 struct SkeletonRecord {

@@ -39,7 +39,9 @@ std::string reason_of(int result, const std::string& message) {
                                                ? std::string("a page is not as it was written")
                                                : message);
     case ErrorCode::limit:
-      return (result & 0xff) == SQLITE_FULL ? "the disk is full" : "out of memory";
+      return (result & 0xff) == SQLITE_FULL
+                 ? "the disk is full, or a limit on the size of files is reached"
+                 : "out of memory";
     case ErrorCode::locked:
       return "the archive is in use by another process";
     default:

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <vector>
 
+#include "reprise/error.h"
+
 namespace reprise {
 namespace {
 
@@ -44,9 +46,18 @@ int read_file(sqlite3_file* file, void* data, int size, sqlite3_int64 offset) {
   return page_is_whole(page, number_of(size, offset)) ? SQLITE_OK : SQLITE_IOERR_DATA;
 }
 
+/// SQLite tells a full disk from other errors, but takes a limit on the size of files, or on what a
+/// user may have, for one of those.
+int with_limits_told(sqlite3_file* file, int result) {
+  if ((result & 0xff) != SQLITE_IOERR) return result;
+  int number = 0;
+  real(file)->pMethods->xFileControl(real(file), SQLITE_FCNTL_LAST_ERRNO, &number);
+  return code_of_errno(number) == ErrorCode::limit ? SQLITE_FULL : result;
+}
+
 int write_file(sqlite3_file* file, const void* data, int size, sqlite3_int64 offset) {
   if (!is_page(file, size, offset)) {
-    return real(file)->pMethods->xWrite(real(file), data, size, offset);
+    return with_limits_told(file, real(file)->pMethods->xWrite(real(file), data, size, offset));
   }
   std::vector<std::uint8_t> page(static_cast<std::size_t>(size));
   std::memcpy(page.data(), data, page.size());
@@ -54,13 +65,16 @@ int write_file(sqlite3_file* file, const void* data, int size, sqlite3_int64 off
   for (std::size_t b = 0; b < page_checksum_bytes; ++b) {
     page[page.size() - page_checksum_bytes + b] = static_cast<std::uint8_t>(checksum >> (8 * b));
   }
-  return real(file)->pMethods->xWrite(real(file), page.data(), size, offset);
+  return with_limits_told(file,
+                          real(file)->pMethods->xWrite(real(file), page.data(), size, offset));
 }
 
 int truncate_file(sqlite3_file* f, sqlite3_int64 size) {
   return real(f)->pMethods->xTruncate(real(f), size);
 }
-int sync_file(sqlite3_file* f, int flags) { return real(f)->pMethods->xSync(real(f), flags); }
+int sync_file(sqlite3_file* f, int flags) {
+  return with_limits_told(f, real(f)->pMethods->xSync(real(f), flags));
+}
 int size_of_file(sqlite3_file* f, sqlite3_int64* size) {
   return real(f)->pMethods->xFileSize(real(f), size);
 }

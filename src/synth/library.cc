@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "formats/whole_file.h"
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 #include "synth/channels.h"
@@ -60,16 +60,6 @@ std::string truth_text(const std::vector<std::vector<SynthOccurrence>>& truth,
   return groups.dump(1) + "\n";
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) {
-    throw Error(ErrorCode::failed, "the file cannot be written", {path.string(), 0},
-                "check the folder's permissions and the space on its disk");
-  }
-}
-
 void refuse_existing(const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
     std::error_code ignored;
@@ -83,7 +73,7 @@ void make_folder(const fs::path& folder) {
   std::error_code problem;
   fs::create_directories(folder, problem);
   if (problem) {
-    throw Error(ErrorCode::failed, "the folder cannot be made: " + problem.message(),
+    throw Error(code_of_errno(problem.value()), "the folder cannot be made: " + problem.message(),
                 {folder.string(), 0}, "check the permissions of the folder above it");
   }
 }
@@ -118,12 +108,12 @@ std::size_t write_synthetic_library(const fs::path& folder, const SynthOptions& 
   const std::vector<Subject> subjects = make_subjects(options, plan);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     make_folder(folder / plan.subjects[i]);
-    if (!bvh) write_file(asf_path(plan.subjects[i]), subjects[i].skeleton->source_text);
+    if (!bvh) write_whole_file(asf_path(plan.subjects[i]), subjects[i].skeleton->source_text);
   }
   const auto truth = make_takes(options, plan, subjects, [&](const Take& take) {
-    write_file(folder / (take.name + extension), write_motion(take, synth::file_decimals));
+    write_whole_file(folder / (take.name + extension), write_motion(take, synth::file_decimals));
   });
-  write_file(truth_path, truth_text(truth, extension));
+  write_whole_file(truth_path, truth_text(truth, extension));
   return paths.size();
 }
 

@@ -197,6 +197,27 @@ TEST_F(ErrorsTest, FullStdoutIsAnError) {
   }
 }
 
+TEST_F(ErrorsTest, AFileThatMayNotGrowIsNineAndTheArchiveStays) {
+  make_library();
+  const std::string before = read_file(folder() / "lib.rpz");
+  // In units of 512 bytes: the archive may grow by very little.
+  const auto limited = [&](const std::string& archive, std::size_t bytes) {
+    const std::string line = "ulimit -f " + std::to_string(bytes / 512) +
+                             "; " REPRISE_COMMAND " ingest " + archive + " takes --prefix more";
+    return RunningCommand(folder(), {"sh", "-c", line}).wait();
+  };
+  for (const auto& [archive, bytes] :
+       {std::pair<std::string, std::size_t>{"lib.rpz", before.size()}, {"new.rpz", 2048}}) {
+    const Outcome outcome = limited(archive, bytes);
+    EXPECT_EQ(outcome.exit_code, 9) << outcome.err;
+    EXPECT_NE(outcome.err.find("limit on the size of files"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(read_file(folder() / "lib.rpz"), before);
+  EXPECT_FALSE(fs::exists(folder() / "new.rpz"));
+  output({"verify", "lib.rpz"});
+  EXPECT_EQ(document({"ingest", "lib.rpz", "takes", "--prefix", "more"}).at("added").size(), 4U);
+}
+
 TEST_F(ErrorsTest, HelpAndVersionAreResults) {
   EXPECT_EQ(output({"--version"}).rfind("reprise ", 0), 0U);
   EXPECT_NE(output({"--help"}).find("ingest"), std::string::npos);
