@@ -175,8 +175,8 @@ void InfoCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
   id_given_ = app.add_option("ID", id_, "A take or a clip; without it, the archive");
   id_given_->type_name("");
-  add_path(app, "--joint-map", joint_map_,
-           "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
+  add_input_file(app, "--joint-map", joint_map_,
+                 "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
   add_examples(app, {"reprise info lib.rpz", "reprise info lib.rpz walk_01"});
 }
 

@@ -69,6 +69,7 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
           {"skipped", report.skipped},
           {"other_fidelity", report.other_fidelity},
           {"other_metadata", report.other_metadata},
+          {"takes_not_found", report.takes_not_found},
           {"rejected", rejected},
           {"seconds", report.seconds},
           {"stats", to_json(stats)}};
@@ -102,7 +103,8 @@ void IngestCommand::setup(CLI::App& app) {
   add_whole_number(app, "--jobs", options_.jobs, 1, greatest_jobs,
                    "Threads (default: all); the result is the same for any number");
   add_read_options(app, options_.read);
-  add_path(app, "--metadata", metadata_, "CSV with the columns take, subject, description, tags");
+  add_input_file(app, "--metadata", metadata_,
+                 "CSV with the columns take, subject, description, tags; - is stdin");
   app.add_option_function<std::string>(
          "--prefix", [this](const std::string& text) { options_.prefix = checked_prefix(text); },
          "Put P/ in front of the names of this ingest")
@@ -130,7 +132,6 @@ void IngestCommand::check() {
     options_.paths.emplace_back(path);
   }
   options_.fidelity = fidelity();
-  if (metadata_ == "-") throw Error(ErrorCode::usage, "--metadata takes a file, not stdin");
   if (!metadata_.empty()) options_.metadata = metadata_;
 }
 

@@ -104,28 +104,34 @@ MotionFormat parse_motion_format(std::string_view text) {
 FrameRange frames_of(const Interval<long>& interval, FrameRange whole) {
   const FrameRange range{interval.begin.value_or(whole.begin), interval.end.value_or(whole.end)};
   if (range.begin < whole.begin || range.end > whole.end || range.begin >= range.end) {
-    throw Error(ErrorCode::failed,
+    throw Error(ErrorCode::usage,
                 fmt::format("frames {}:{} are not within {}:{}, which is what there is",
-                            range.begin, range.end, whole.begin, whole.end));
+                            interval.begin ? std::to_string(range.begin) : "",
+                            interval.end ? std::to_string(range.end) : "", whole.begin, whole.end));
   }
   return range;
 }
 
 FrameRange frames_of(const Interval<double>& interval, FrameRange whole, double frame_rate) {
-  Interval<long> frames;
-  if (interval.begin) frames.begin = first_frame_from(*interval.begin, frame_rate);
-  if (interval.end) frames.end = first_frame_from(*interval.end, frame_rate);
-  const long begin = frames.begin.value_or(whole.begin);
-  const long end = frames.end.value_or(whole.end);
-  if (begin < whole.begin || end > whole.end) {
-    throw Error(ErrorCode::failed,
-                fmt::format("{:g}:{:g} s are not within {:g}:{:g} s, which is what there is",
-                            interval.begin.value_or(static_cast<double>(begin) / frame_rate),
-                            interval.end.value_or(static_cast<double>(end) / frame_rate),
+  const auto side = [&](const std::optional<double>& seconds, long otherwise) {
+    return seconds ? first_frame_from(*seconds, frame_rate) : otherwise;
+  };
+  const FrameRange range{side(interval.begin, whole.begin), side(interval.end, whole.end)};
+  const auto text = [](const std::optional<double>& seconds) {
+    return seconds ? fmt::format("{:g}", *seconds) : std::string();
+  };
+  const std::string asked = fmt::format("{}:{} s", text(interval.begin), text(interval.end));
+  if (range.begin < whole.begin || range.begin >= whole.end || range.end > whole.end) {
+    throw Error(ErrorCode::usage,
+                fmt::format("{} are not within {:g}:{:g} s, which is what there is", asked,
                             static_cast<double>(whole.begin) / frame_rate,
                             static_cast<double>(whole.end) / frame_rate));
   }
-  return frames_of(frames, whole);
+  if (range.begin >= range.end) {
+    throw Error(ErrorCode::usage,
+                fmt::format("no frame is within {}: there are {:g} a second", asked, frame_rate));
+  }
+  return range;
 }
 
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::filesystem::path& target,
@@ -139,6 +145,19 @@ CLI::Option* add_path(CLI::App& app, const std::string& name, std::filesystem::p
           },
           description)
       ->type_name(type);
+}
+
+CLI::Option* add_input_file(CLI::App& app, const std::string& name, std::filesystem::path& target,
+                            const std::string& description) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [name, &target](const std::string& text) {
+            if (text.empty()) refuse(name, text, "a path");
+            target = text == "-" ? stdin_path : text;
+          },
+          description)
+      ->type_name("FILE");
 }
 
 CLI::Option* add_archive(CLI::App& app, std::filesystem::path& target) {

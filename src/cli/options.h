@@ -39,7 +39,7 @@ FidelityTier parse_tier(std::string_view text);
 MotionFormat parse_motion_format(std::string_view text);
 
 /// The frames in the interval, or those whose times at `frame_rate` are in it. Sides that are
-/// left out are those of `whole`. Throws Error (failed) where the result is empty or goes beyond
+/// left out are those of `whole`. Throws Error (usage) where the result is empty or goes beyond
 /// `whole`.
 FrameRange frames_of(const Interval<long>& interval, FrameRange whole);
 FrameRange frames_of(const Interval<double>& interval, FrameRange whole, double frame_rate);
@@ -73,6 +73,13 @@ CLI::Option* add_whole_number(CLI::App& app, const std::string& name, Target& ta
 /// A path that must not be empty.
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::filesystem::path& target,
                       const std::string& description, const std::string& type = "FILE");
+
+/// By this path stdin is read as any other file.
+inline constexpr const char* stdin_path = "/dev/stdin";
+
+/// A file that is read once; "-" becomes `stdin_path`.
+CLI::Option* add_input_file(CLI::App& app, const std::string& name, std::filesystem::path& target,
+                            const std::string& description);
 
 /// The archive, first of the positional arguments. It must be seekable, so that "-" is refused.
 CLI::Option* add_archive(CLI::App& app, std::filesystem::path& target);

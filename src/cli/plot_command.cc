@@ -74,8 +74,9 @@ void PlotCommand::setup(CLI::App& app) {
                  "The take whose postures are compared with one another: its name or the end of it")
       ->type_name("TAKE");
   add_path(app, "-o,--output", file_, "The PNG file to write; - is stdout")->required();
-  add_path(app, "--joint-map", joint_map_,
-           "With --summary: lines \"BODY JOINT = JOINT\" that correct which joints are which");
+  add_input_file(
+      app, "--joint-map", joint_map_,
+      "With --summary: lines \"BODY JOINT = JOINT\" that correct which joints are which");
   app.add_flag("--overwrite", overwrite_, "Replace a file that exists");
   add_examples(app, {"reprise plot lib.rpz --summary walk_01 -o walk_01.png",
                      "reprise plot lib.rpz --self-distance walk_01 -o walk_01.png"});

@@ -2,6 +2,7 @@
 
 #include "cli/interruption.h"
 #include "cli/motion_input.h"
+#include "cli/options.h"
 #include "cli/text.h"
 #include "reprise/error.h"
 
@@ -61,8 +62,8 @@ void SearchCommand::setup(CLI::App& app) {
                "Leave out takes of the example's subject");
   app.add_flag("--all-occurrences", options_.all_occurrences,
                "Every stretch of a take that fits, not only the best");
-  add_path(app, "--joint-map", joint_map_,
-           "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
+  add_input_file(app, "--joint-map", joint_map_,
+                 "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
   app.add_flag("--cache", setup_.write_cache,
                "Keep what was decoded in ARCHIVE.features, for the next search");
   add_whole_number(app, "--jobs", setup_.jobs, 1, 1024, "Worker threads (default: all cores)");
@@ -73,11 +74,17 @@ void SearchCommand::setup(CLI::App& app) {
 }
 
 void SearchCommand::check() {
-  if (like_.empty() == id_.empty()) {
+  if (like_.empty() && id_.empty()) {
     throw Error(ErrorCode::usage, "search needs an example: --like FILE or --id ID");
   }
+  if (!like_.empty() && !id_.empty()) {
+    throw Error(ErrorCode::usage, "--like and --id exclude each other: there is one example");
+  }
+  if (like_ == "-" && joint_map_ == stdin_path) {
+    throw Error(ErrorCode::usage, "only one of --like and --joint-map can be stdin");
+  }
   if (options_.from && options_.to && *options_.from >= *options_.to) {
-    throw Error(ErrorCode::usage, "--from must be less than --to");
+    throw Error(ErrorCode::usage, "--from must be before --to");
   }
   if (options_.across_subjects && id_.empty()) {
     throw Error(ErrorCode::usage, "--across-subjects needs --id: a file has no subject");
@@ -103,6 +110,7 @@ ExitCode SearchCommand::run(Console& console) {
     ProgressBar bar("search", console.progress_terminal());
     search.emplace(archive_, setup_, progress_sink(bar));
   }
+  if (!search->cache_problem().empty()) console.message(printable(search->cache_problem()));
   const std::vector<SearchResult> results =
       selection ? search->like(selection->take, options_) : search->like(*example, options_);
   console.result(results_table(results, console.bold_results()));

@@ -1,5 +1,7 @@
 #include "reprise/query/motion_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -20,8 +22,11 @@ constexpr double longest_whole = 2.0;
 struct MotionSearch::Impl {
   std::vector<LibraryTake> takes;
   JointMap joint_map;
+  std::string cache_problem;
   std::map<std::uint64_t, PlanGroup> groups;
 
+  /// Writes the cache, unless it is as the archive is already.
+  void keep(const std::filesystem::path& archive, const std::filesystem::path& cache);
   PlanGroup& group_of(const PostureTrack& track);
   std::vector<bool> accepted(const PlanGroup& group, const Example& example,
                              const SearchOptions& options) const;
@@ -29,6 +34,17 @@ struct MotionSearch::Impl {
                                 const std::vector<bool>& accept, std::size_t count) const;
   std::vector<SearchResult> search(const Example& example, const SearchOptions& options);
 };
+
+void MotionSearch::Impl::keep(const std::filesystem::path& archive,
+                              const std::filesystem::path& cache) {
+  const Digest content = ArchiveStore::open_for_reading(archive).content_digest();
+  if (content_of_cache(cache) == content) return;
+  try {
+    write_feature_cache(cache, content, takes);
+  } catch (const Error& error) {
+    cache_problem = error.what();
+  }
+}
 
 PlanGroup& MotionSearch::Impl::group_of(const PostureTrack& track) {
   const auto group = groups.find(track.plan.id);
@@ -101,8 +117,12 @@ namespace {
 void choose_part(Example& example, double seconds, const SearchOptions& options) {
   const double from = options.from.value_or(0.0), to = options.to.value_or(seconds);
   if (!(from >= 0) || !(from < to) || !(to <= seconds + 1e-6)) {
-    throw Error(ErrorCode::usage, "--from and --to are not a part of the example, which has " +
-                                      std::to_string(seconds) + " s");
+    const auto side = [](const std::optional<double>& time) {
+      return time ? fmt::format("{:g}", *time) : std::string();
+    };
+    throw Error(ErrorCode::usage,
+                fmt::format("{}:{} s are not within 0:{:g} s, which is what there is",
+                            side(options.from), side(options.to), seconds));
   }
   example.whole = !options.from && !options.to;
   const Stretch whole = whole_of(*example.track);
@@ -117,14 +137,13 @@ MotionSearch::MotionSearch(const std::filesystem::path& archive, const SearchSet
   impl_->joint_map = setup.joint_map;
   const std::filesystem::path cache = search_cache_path(archive);
   impl_->takes = read_library(archive, setup, read_feature_cache(cache), progress);
-  if (setup.write_cache) {
-    const Digest content = ArchiveStore::open_for_reading(archive).content_digest();
-    if (content_of_cache(cache) != content) write_feature_cache(cache, content, impl_->takes);
-  }
+  if (setup.write_cache) impl_->keep(archive, cache);
   for (std::size_t i = 0; i < impl_->takes.size(); ++i) {
     impl_->groups[impl_->takes[i].track.plan.id].takes.push_back(i);
   }
 }
+
+const std::string& MotionSearch::cache_problem() const { return impl_->cache_problem; }
 
 MotionSearch::~MotionSearch() = default;
 MotionSearch::MotionSearch(MotionSearch&&) noexcept = default;

@@ -47,7 +47,7 @@ TEST_F(ExtractTest, PartsAreSlicesOfTheWhole) {
   EXPECT_EQ(reprise({"extract", "lib.rpz", name, "-o", "-", "--frames",
                      "0:" + std::to_string(frames + 1)})
                 .exit_code,
-            1);
+            2);
 }
 
 TEST_F(ExtractTest, ClipIsItsPartOfTheTake) {

@@ -84,6 +84,10 @@ TEST_F(IngestTest, MetadataIsShownAndSearched) {
                                          ",Ada,\"slow walk, then a turn\",gait\n" + names[1] +
                                          ",Ben,quick wave,gesture\n");
   output({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
+  Surroundings piped;
+  piped.input = "takes.csv";
+  EXPECT_EQ(reprise({"ingest", "piped.rpz", "takes", "--metadata", "-"}, piped).exit_code, 0);
+  EXPECT_EQ(content_digest("piped.rpz"), content_digest("told.rpz"));
   const auto take = document({"info", "told.rpz", names[0]}).at("take");
   EXPECT_EQ(take.at("subject"), "Ada");
   EXPECT_EQ(take.at("description"), "slow walk, then a turn");
@@ -129,6 +133,9 @@ TEST_F(IngestTest, RowsOfNoTakeAreTold) {
   EXPECT_NE(told.err.find("takes.csv: 2 rows of no take that was given, such as 'nobody_01'"),
             std::string::npos)
       << told.err;
+  EXPECT_EQ(
+      document({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"}).at("takes_not_found"),
+      nlohmann::json::array({"nobody_01", "nobody_02"}));
   EXPECT_EQ(document({"list", "told.rpz", "--text", "gait"}).at("takes").size(), 1U);
 }
 

@@ -113,8 +113,8 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
   const json first = document({"ingest", "lib.rpz", "takes"}, 3);
   const json shape = {{"added", "array"},          {"skipped", "array"},
                       {"other_fidelity", "array"}, {"other_metadata", "array"},
-                      {"rejected", "array"},       {"seconds", "number"},
-                      {"stats", stats_shape}};
+                      {"rejected", "array"},       {"takes_not_found", "array"},
+                      {"seconds", "number"},       {"stats", stats_shape}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);

@@ -61,6 +61,32 @@ TEST_F(MistakesTest, WhatIsNotThereIsSaidInItsOwnWords) {
   EXPECT_NE(late.find(":1000 s are not within 0:"), std::string::npos) << late;
 }
 
+TEST_F(MistakesTest, APartThatIsNotThereIsWrongUsage) {
+  make_library();
+  const std::string take = take_names().front();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"search", "lib.rpz", "--id", take, "--to", "1000"},
+        {"search", "lib.rpz", "--like", "takes/" + take + ".bvh", "--to", "1000"},
+        {"repeats", "lib.rpz", take, "--to", "1000"},
+        {"repeats", "lib.rpz", take, "--from", "1000"},
+        {"extract", "lib.rpz", take, "-o", "-", "--time", "0:1000"},
+        {"extract", "lib.rpz", take, "-o", "-", "--frames", "0:1000000"}}) {
+    const Outcome outcome = reprise(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words.front() << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find("1000"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(MistakesTest, AnArchiveAmongTheInputsIsCalledOne) {
+  make_library();
+  const nlohmann::json report = document({"ingest", "new.rpz", "lib.rpz"}, 3);
+  ASSERT_EQ(report.at("rejected").size(), 1U);
+  EXPECT_EQ(report.at("rejected")[0].at("path"), "lib.rpz");
+  EXPECT_EQ(
+      report.at("rejected")[0].at("why").get<std::string>().rfind("this is a Reprise archive", 0),
+      0U);
+}
+
 TEST_F(MistakesTest, SkeletonsAmongTheFilesAreNoMistake) {
   ASSERT_EQ(reprise({"synth", "amc", "--takes", "1", "--seconds", "1", "--subjects", "1",
                      "--format", "amc"})

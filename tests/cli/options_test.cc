@@ -49,8 +49,8 @@ TEST(Options, FramesAreHalfOpenAndInsideTheWhole) {
   const FrameRange open = frames_of(Interval<long>{20, {}}, whole);
   EXPECT_EQ(open.begin, 20);
   EXPECT_EQ(open.end, 50);
-  EXPECT_EQ(code_of([&] { frames_of(Interval<long>{0, 20}, whole); }), ErrorCode::failed);
-  EXPECT_EQ(code_of([&] { frames_of(Interval<long>{20, 51}, whole); }), ErrorCode::failed);
+  EXPECT_EQ(code_of([&] { frames_of(Interval<long>{0, 20}, whole); }), ErrorCode::usage);
+  EXPECT_EQ(code_of([&] { frames_of(Interval<long>{20, 51}, whole); }), ErrorCode::usage);
 }
 
 TEST(Options, TimesNameTheFramesWithinThem) {
@@ -62,6 +62,21 @@ TEST(Options, TimesNameTheFramesWithinThem) {
   const FrameRange all = frames_of(Interval<double>{0.0, 100 / rate}, FrameRange{0, 100}, rate);
   EXPECT_EQ(all.begin, 0);
   EXPECT_EQ(all.end, 100);
+}
+
+TEST(Options, TimesWithoutAFrameAreToldInSeconds) {
+  const auto told = [](Interval<double> interval) -> std::string {
+    try {
+      frames_of(interval, FrameRange{0, 100}, 30);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::usage);
+      return error.reason();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(told({300.0, {}}).rfind("300: s are not within 0:3.33333 s", 0), 0U);
+  EXPECT_EQ(told({{}, 4.0}).rfind(":4 s are not within 0:3.33333 s", 0), 0U);
+  EXPECT_EQ(told({0.01, 0.02}).rfind("no frame is within 0.01:0.02 s", 0), 0U);
 }
 
 TEST(Options, CheckingTouchesNoFile) {

@@ -55,6 +55,19 @@ TEST_F(SearchTest, WithoutTheCacheNothingIsWritten) {
   EXPECT_EQ(output({"search", "lib.rpz", "--id", take}), results);
 }
 
+TEST_F(SearchTest, ACacheThatCannotBeWrittenIsNoHindrance) {
+  const std::string take = take_names()[0];
+  const std::string results = output({"search", "lib.rpz", "--id", take});
+  std::filesystem::create_directories(folder() / "lib.rpz.features" / "full");
+  const auto before = files_below(folder());
+  const Outcome outcome = reprise({"search", "lib.rpz", "--id", take, "--cache"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, results);
+  EXPECT_EQ(outcome.err.rfind("lib.rpz.features: the search cache cannot be written: ", 0), 0U)
+      << outcome.err;
+  EXPECT_EQ(files_below(folder()), before);
+}
+
 TEST_F(SearchTest, ErrorsHaveTheirCodes) {
   const std::string take = take_names()[0];
   const std::string file = "takes/" + take + ".bvh";
@@ -79,6 +92,12 @@ TEST_F(SearchTest, InfoShowsTheBodyAndAMapCorrectsIt) {
       document({"info", "lib.rpz", take, "--joint-map", "map.txt"}).at("take").at("body");
   EXPECT_EQ(corrected.at("knee_left"), "RightFoot");
   EXPECT_EQ(corrected.at("head"), "");
+  Surroundings piped;
+  piped.input = "map.txt";
+  const Outcome from_stdin =
+      reprise({"info", "lib.rpz", take, "--joint-map", "-", "--json"}, piped);
+  EXPECT_EQ(json::parse(from_stdin.out).at("take").at("body"), corrected);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--like", "-", "--joint-map", "-"}).exit_code, 2);
   write_file(folder() / "map.txt", "tail = Tail\n");
   EXPECT_EQ(reprise({"search", "lib.rpz", "--id", take, "--joint-map", "map.txt"}).exit_code, 1);
 }

@@ -15,7 +15,7 @@ namespace reprise {
 /// How a search is made ready.
 struct SearchSetup {
   JointMap joint_map;        ///< corrects the matching of every skeleton that has such joints
-  bool write_cache = false;  ///< keep what was computed in `search_cache_path`
+  bool write_cache = false;  ///< keep what was computed in `search_cache_path`, if it can be
   unsigned jobs = 0;         ///< worker threads, 0: one a core; results do not depend on it
 };
 
@@ -52,13 +52,16 @@ std::filesystem::path search_cache_path(const std::filesystem::path& archive);
 /// archive as it was when this was made. One thread at a time may ask.
 class MotionSearch {
  public:
-  /// Throws what Archive throws; Error (interrupted) where `progress` says so; failed where the
-  /// cache cannot be written.
+  /// Throws what Archive throws; Error (interrupted) where `progress` says so.
   explicit MotionSearch(const std::filesystem::path& archive, const SearchSetup& setup = {},
                         const ProgressSink& progress = {});
   ~MotionSearch();
   MotionSearch(MotionSearch&&) noexcept;
   MotionSearch& operator=(MotionSearch&&) noexcept;
+
+  /// Why the cache that was asked for could not be written, in a sentence; else empty. Answers do
+  /// not depend on it.
+  const std::string& cache_problem() const;
 
   /// Takes like a take that need not be in the archive, best first. A whole example is compared
   /// with whole takes, and with parts of takes more than twice as long; a part of one with all
