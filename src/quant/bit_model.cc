@@ -7,9 +7,6 @@
 namespace reprise {
 namespace {
 
-/// Far beyond what motion brings: a damaged stream may push a weight for ever.
-constexpr std::int32_t weight_limit = 64 * weight_one;
-
 /// Costs of a bit of probability p in 1/65536 bit, by p / 16: log2 by repeated squaring.
 constexpr auto make_cost_table() {
   std::array<std::uint32_t, 4096> table{};
@@ -33,6 +30,10 @@ constexpr auto make_cost_table() {
 }
 constexpr auto cost_table = make_cost_table();
 
+std::uint32_t cost_of(Probability one, bool bit) {
+  return cost_table[(bit ? one : 65536 - one) >> 4];
+}
+
 }  // namespace
 
 BitMixer::BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets,
@@ -48,51 +49,20 @@ void BitMixer::start(std::size_t table, std::size_t counter, int logit, int coun
                              static_cast<std::uint16_t>(count)};
 }
 
-Probability BitMixer::predict(const Contexts& contexts) {
-  const std::int32_t* weight = &weights_[contexts.weights * BitModelConstants::inputs];
-  std::int64_t dot = 0;
-  for (int i = 0; i < BitModelConstants::inputs; ++i) {
-    stretched_[i] = stretch(tables_[i][contexts.counter[i]].probability);
-    dot += static_cast<std::int64_t>(weight[i]) * stretched_[i];
-  }
-  const auto logit =
-      static_cast<int>(std::clamp<std::int64_t>(dot >> 16, -logit_limit, logit_limit));
-  predicted_ = static_cast<Probability>(squash(logit));
-  return predicted_;
-}
-
-void BitMixer::update(const Contexts& contexts, bool bit) {
-  std::int32_t* weight = &weights_[contexts.weights * BitModelConstants::inputs];
-  const std::int32_t error =
-      ((bit ? 65535 : 0) - static_cast<std::int32_t>(predicted_)) * learning_.mixer_rate;
-  for (int i = 0; i < BitModelConstants::inputs; ++i) {
-    const auto move = static_cast<std::int32_t>(
-        (static_cast<std::int64_t>(stretched_[i]) * error + (1 << 19)) >> 20);
-    weight[i] = std::clamp(weight[i] + move, -weight_limit, weight_limit);
-    tables_[i][contexts.counter[i]].update(bit, learning_.count_limit);
-  }
-}
-
 void BitMixer::encode(RangeEncoder& encoder, const Contexts& contexts, bool bit) {
-  encoder.encode(bit, predict(contexts));
-  update(contexts, bit);
-}
-
-bool BitMixer::decode(RangeDecoder& decoder, const Contexts& contexts) {
-  const bool bit = decoder.decode(predict(contexts));
-  update(contexts, bit);
-  return bit;
+  const Prediction prediction = predict(contexts);
+  encoder.encode(bit, prediction.one);
+  update(contexts, prediction, bit);
 }
 
 std::uint32_t BitMixer::learn(const Contexts& contexts, bool bit) {
-  const std::uint32_t bits = cost(contexts, bit);
-  update(contexts, bit);
-  return bits;
+  const Prediction prediction = predict(contexts);
+  update(contexts, prediction, bit);
+  return cost_of(prediction.one, bit);
 }
 
-std::uint32_t BitMixer::cost(const Contexts& contexts, bool bit) {
-  const Probability one = predict(contexts);
-  return cost_table[(bit ? one : 65536 - one) >> 4];
+std::uint32_t BitMixer::cost(const Contexts& contexts, bool bit) const {
+  return cost_of(predict(contexts).one, bit);
 }
 
 namespace {

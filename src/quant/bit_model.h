@@ -43,11 +43,16 @@ class BitMixer {
   };
 
   void encode(RangeEncoder& encoder, const Contexts& contexts, bool bit);
-  bool decode(RangeDecoder& decoder, const Contexts& contexts);
+  bool decode(RangeDecoder& decoder, const Contexts& contexts) {
+    const Prediction prediction = predict(contexts);
+    const bool bit = decoder.decode(prediction.one);
+    update(contexts, prediction, bit);
+    return bit;
+  }
   /// Learns as if `bit` had been coded; returns its cost in 1/65536 bit.
   std::uint32_t learn(const Contexts& contexts, bool bit);
   /// The cost alone.
-  std::uint32_t cost(const Contexts& contexts, bool bit);
+  std::uint32_t cost(const Contexts& contexts, bool bit) const;
 
   /// Writes how what was learned differs from `fresh`, but for the last table, whose contexts are
   /// too many to be worth it.
@@ -56,14 +61,47 @@ class BitMixer {
   void load(RangeDecoder& decoder);
 
  private:
-  Probability predict(const Contexts& contexts);
-  void update(const Contexts& contexts, bool bit);
+  static constexpr int inputs = BitModelConstants::inputs;
 
-  std::array<std::vector<BitCounter>, BitModelConstants::inputs> tables_;
+  /// What a decision's contexts say of it.
+  struct Prediction {
+    std::array<std::int32_t, inputs> logits;
+    Probability one;
+  };
+  Prediction predict(const Contexts& contexts) const;
+  void update(const Contexts& contexts, const Prediction& prediction, bool bit);
+
+  std::array<std::vector<BitCounter>, inputs> tables_;
   std::vector<std::int32_t> weights_;
   Learning learning_;
-  std::array<std::int32_t, BitModelConstants::inputs> stretched_{};
-  Probability predicted_ = 1u << 15;
 };
+
+// Both stand here since decoding does little else.
+
+inline BitMixer::Prediction BitMixer::predict(const Contexts& contexts) const {
+  const std::int32_t* weights = &weights_[std::size_t{contexts.weights} * inputs];
+  Prediction result;
+  std::int64_t dot = 0;
+  for (std::size_t i = 0; i < inputs; ++i) {
+    result.logits[i] = stretch(tables_[i][contexts.counter[i]].probability);
+    dot += static_cast<std::int64_t>(weights[i]) * result.logits[i];
+  }
+  const auto logit =
+      static_cast<int>(std::clamp<std::int64_t>(dot >> 16, -logit_limit, logit_limit));
+  result.one = static_cast<Probability>(squash(logit));
+  return result;
+}
+
+inline void BitMixer::update(const Contexts& contexts, const Prediction& prediction, bool bit) {
+  std::int32_t* weights = &weights_[std::size_t{contexts.weights} * inputs];
+  const std::int32_t error =
+      ((bit ? 65535 : 0) - static_cast<std::int32_t>(prediction.one)) * learning_.mixer_rate;
+  for (std::size_t i = 0; i < inputs; ++i) {
+    const auto move = static_cast<std::int32_t>(
+        (static_cast<std::int64_t>(prediction.logits[i]) * error + (1 << 19)) >> 20);
+    weights[i] = std::clamp(weights[i] + move, -weight_limit, weight_limit);
+    tables_[i][contexts.counter[i]].update(bit, learning_.count_limit);
+  }
+}
 
 }  // namespace reprise

@@ -21,6 +21,8 @@ struct BitModelConstants {
 constexpr int logit_one = 256;
 constexpr int logit_limit = 11 * logit_one;
 constexpr int weight_one = 65536;
+/// Far beyond what motion brings: a damaged stream may push a weight for ever.
+constexpr std::int32_t weight_limit = 64 * weight_one;
 constexpr int least_probability = 24;
 
 namespace logit_tables {

@@ -65,7 +65,24 @@ std::uint32_t bin(std::uint64_t sum, std::uint32_t count, int per_octave) {
   return std::min(result, count - 1);
 }
 
-using Sizes = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic>;
+/// Sizes of knots, frames x channels, with zeros where the neighbours of a knot may lie outside: in
+/// two coarsest strides before the first frame, one after the last, and two channels before the
+/// first.
+class KnotSizes {
+ public:
+  KnotSizes(Index frames, Index channels, int levels)
+      : margin_(Index{2} << levels),
+        values_(Values::Zero(frames + margin_ + margin_ / 2, channels + 2)) {}
+
+  /// Of a channel from -2 on: its first frame.
+  const std::uint64_t* column(Index channel) const { return &values_(margin_, channel + 2); }
+  std::uint64_t* column(Index channel) { return &values_(margin_, channel + 2); }
+
+ private:
+  using Values = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic>;
+  Index margin_;
+  Values values_;
+};
 
 template <class Io>
 class Walk {
@@ -75,12 +92,17 @@ class Walk {
         shape_(shape),
         steps_(steps),
         knots_(knots),
-        sizes_(Sizes::Zero(knots.rows(), knots.cols())),
-        activity_(Eigen::Matrix<std::uint64_t, Eigen::Dynamic, 1>::Zero(knots.rows())) {}
+        sizes_(knots.rows(), knots.cols(), shape.levels),
+        activities_(knots.rows(), 1, shape.levels) {}
 
   void run() {
     for (channel_ = 0; channel_ < knots_.cols(); ++channel_) {
       if (steps_.base[static_cast<std::size_t>(channel_)] < 0) continue;
+      own_ = sizes_.column(channel_);
+      beside_ = sizes_.column(channel_ - 1);
+      beside_that_ = sizes_.column(channel_ - 2);
+      // The first channels of a skeleton hang on none.
+      chain_ = sizes_.column(std::max(-1, shape_.parents[static_cast<std::size_t>(channel_)]));
       const Index stride = Index{1} << shape_.levels;
       for (Index f = 0; f < shape_.frames; f += stride) code(f, stride, shape_.levels);
       for (int level = shape_.levels - 1; level >= 0; --level) {
@@ -91,13 +113,6 @@ class Walk {
   }
 
  private:
-  std::uint64_t size(Index frame, Index channel) const {
-    return frame < 0 || frame >= shape_.frames || channel < 0 ? 0 : sizes_(frame, channel);
-  }
-
-  std::uint64_t activity(Index frame) const {
-    return frame < 0 || frame >= shape_.frames ? 0 : activity_[frame];
-  }
   /// 0 negative, 1 zero or not there, 2 positive.
   std::uint32_t sign(Index frame, Index channel) const {
     if (frame < 0 || frame >= shape_.frames || channel < 0) return 1;
@@ -105,76 +120,86 @@ class Walk {
     return value < 0 ? 0 : value > 0 ? 2 : 1;
   }
 
-  /// Knots of the coarser levels are `apart` from `f` on both sides; those of its own level `step`.
+  /// Where a knot stands: those of the coarser levels are `apart` from it on both sides, or nowhere
+  /// (0); those of its own level `step`.
+  struct Place {
+    Index frame, step, apart;
+    std::uint32_t slot;
+  };
+
   void code(Index f, Index apart, int level) {
     if constexpr (requires { io_.ran_out(); }) {
       if (io_.ran_out()) return;
     }
     const bool coarsest = level == shape_.levels;
-    const Index step = coarsest ? apart : 2 * apart;
-    const std::uint32_t slot =
+    const Place place = {
+        f, coarsest ? apart : 2 * apart, coarsest ? 0 : apart,
         coarsest ? level_slots - 1
                  : std::min<std::uint32_t>(level_slots - 2,
-                                           static_cast<std::uint32_t>(level + shape_.first_level));
+                                           static_cast<std::uint32_t>(level + shape_.first_level))};
     const int offset = steps_.offset(static_cast<std::size_t>(channel_), f);
-    expect_size(f, step, coarsest ? shape_.frames : apart, slot, offset);
-    expect_sign(f, step, coarsest ? shape_.frames : apart, slot);
-    knots_(f, channel_) = code_value(knots_(f, channel_));
+    size_contexts_ = expected_size(place, offset);
+    knots_(f, channel_) = code_value(place, knots_(f, channel_));
     const auto magnitude = static_cast<std::uint64_t>(
         std::min<std::int64_t>(std::abs(std::int64_t{knots_(f, channel_)}), most_size));
-    sizes_(f, channel_) = finer(magnitude << size_bits, -offset);
-    activity_[f] += sizes_(f, channel_);
+    own_[f] = finer(magnitude << size_bits, -offset);
+    activity_[f] += own_[f];
     activity_[f] -= activity_[f] >> activity_decay;
   }
 
-  void expect_size(Index f, Index step, Index apart, std::uint32_t slot, int offset) {
+  using Contexts = std::array<std::uint32_t, BitModelConstants::inputs>;
+
+  Contexts expected_size(const Place& place, int offset) const {
+    const auto [f, step, apart, slot] = place;
     const auto in_bins = [&](std::uint64_t sum, std::uint32_t count, int per_octave) {
       return bin(finer(sum, offset) >> size_bits, count, per_octave);
     };
-    const auto around = [&](Index c) {
-      return 2 * size(f, c) + size(f - step, c) + size(f + step, c);
+    const auto around = [f, step](const std::uint64_t* sizes) {
+      return 2 * sizes[f] + sizes[f - step] + sizes[f + step];
     };
-    const std::uint64_t before = size(f - step, channel_);
-    const std::uint64_t coarser = size(f - apart, channel_) + size(f + apart, channel_);
-    const std::uint64_t own = 8 * before + 4 * size(f - 2 * step, channel_) + 2 * coarser;
-    const std::uint64_t beside = around(channel_ - 1);
-    const std::uint64_t chain = around(shape_.parents[static_cast<std::size_t>(channel_)]);
-    const std::uint64_t active = 2 * activity(f) + activity(f - step) + activity(f + step);
+    const std::uint64_t before = own_[f - step];
+    const std::uint64_t coarser = apart > 0 ? own_[f - apart] + own_[f + apart] : 0;
+    const std::uint64_t own = 8 * before + 4 * own_[f - 2 * step] + 2 * coarser;
+    const std::uint64_t beside = around(beside_), chain = around(chain_);
+    const std::uint64_t active = around(activity_);
     const std::uint32_t before_bin = in_bins(before, few_bins, 1);
-    size_contexts_ = {
-        in_bins(2 * own + beside + chain + active / 4, bins, 2) * level_slots + slot,
-        in_bins(own, bins, 2) * few_bins + in_bins(beside + chain, few_bins, 1),
-        in_bins(2 * beside + 2 * chain + around(channel_ - 2), bins, 2) * few_bins + before_bin,
-        (in_bins(active, bins, 2) * few_bins + before_bin) * few_bins +
-            in_bins(coarser, few_bins, 1),
-        std::min(static_cast<std::uint32_t>(channel_), most_channel) * level_slots + slot};
+    return {in_bins(2 * own + beside + chain + active / 4, bins, 2) * level_slots + slot,
+            in_bins(own, bins, 2) * few_bins + in_bins(beside + chain, few_bins, 1),
+            in_bins(2 * beside + 2 * chain + around(beside_that_), bins, 2) * few_bins + before_bin,
+            (in_bins(active, bins, 2) * few_bins + before_bin) * few_bins +
+                in_bins(coarser, few_bins, 1),
+            std::min(static_cast<std::uint32_t>(channel_), most_channel) * level_slots + slot};
   }
 
-  void expect_sign(Index f, Index step, Index apart, std::uint32_t slot) {
+  Contexts expected_sign(const Place& place) const {
+    const auto [f, step, apart, slot] = place;
     const std::uint32_t before = sign(f - step, channel_), beside = sign(f, channel_ - 1);
     const std::uint32_t chain = sign(f, shape_.parents[static_cast<std::size_t>(channel_)]);
-    const std::uint32_t left = sign(f - apart, channel_), right = sign(f + apart, channel_);
-    sign_contexts_ = {
+    const std::uint32_t left = apart > 0 ? sign(f - apart, channel_) : 1;
+    const std::uint32_t right = apart > 0 ? sign(f + apart, channel_) : 1;
+    return {
         before * level_slots + slot, (left * 3 + right) * 3 + before,
         (chain * 3 + beside) * 3 + sign(f, channel_ - 2), sign(f - 2 * step, channel_) * 3 + before,
         (std::min(static_cast<std::uint32_t>(channel_), most_channel) * 3 + chain) * 3 + beside};
   }
 
-  bool decide(std::uint32_t kind, bool bit) {
+  bool decide(std::uint32_t kind, const Contexts& expected, bool bit) {
     BitMixer::Contexts contexts;
     for (std::size_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] =
-          kind * context_counts[t] + (kind == sign_decision ? sign_contexts_ : size_contexts_)[t];
+      contexts.counter[t] = kind * context_counts[t] + expected[t];
     }
     contexts.weights = kind;
     return io_(contexts, bit);
   }
 
-  std::int32_t code_value(std::int32_t value) {
+  std::int32_t code_value(const Place& place, std::int32_t value) {
     const std::int32_t magnitude = std::abs(value);
     const std::uint32_t goal = bucket_of(magnitude);
     std::uint32_t index = 0;
-    while (index < last_bucket && decide(std::min(index, decisions - 1), goal > index)) ++index;
+    while (index < last_bucket &&
+           decide(std::min(index, decisions - 1), size_contexts_, goal > index)) {
+      ++index;
+    }
     if (index == 0) return 0;
     const Bucket in = bucket(index);
     const std::int32_t rest = magnitude - in.first;
@@ -183,23 +208,28 @@ class Walk {
     for (std::uint32_t modelled = 0; modelled < 2 && left > 0; ++modelled) {
       --left;
       const std::uint32_t kind = mantissa_decisions + 2 * std::min(index, decisions - 1) + modelled;
-      known = known << 1 | static_cast<std::int32_t>(decide(kind, (rest >> left & 1) != 0));
+      known = known << 1 |
+              static_cast<std::int32_t>(decide(kind, size_contexts_, (rest >> left & 1) != 0));
     }
     known = known << left |
             static_cast<std::int32_t>(io_.plain(static_cast<std::uint32_t>(rest), left));
     const std::int32_t result = in.first + known;
-    return decide(sign_decision, value < 0) ? -result : result;
+    return decide(sign_decision, expected_sign(place), value < 0) ? -result : result;
   }
 
   Io io_;
   const ChannelKnotShape& shape_;
   const StepGrid& steps_;
   ChannelKnots& knots_;
-  Sizes sizes_;
-  /// Of each frame: sizes of the channels before, the nearest ones most.
-  Eigen::Matrix<std::uint64_t, Eigen::Dynamic, 1> activity_;
+  KnotSizes sizes_;
+  /// In one column, of each frame: sizes of the channels before, the nearest ones most.
+  KnotSizes activities_;
+  std::uint64_t* activity_ = activities_.column(0);
   Index channel_ = 0;
-  std::array<std::uint32_t, BitModelConstants::inputs> size_contexts_{}, sign_contexts_{};
+  /// Sizes of the channel, of the two before it, and of the one that it hangs on.
+  std::uint64_t* own_ = nullptr;
+  const std::uint64_t *beside_ = nullptr, *beside_that_ = nullptr, *chain_ = nullptr;
+  Contexts size_contexts_{};
 };
 
 std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
