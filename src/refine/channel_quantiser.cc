@@ -23,15 +23,6 @@ constexpr double dead_zone = 0.14;
 constexpr double arm_at_one_mm = 20;
 /// Where first order explains less of a distance, turns are too large for it.
 constexpr double least_explained = 0.7;
-constexpr double degree = std::numbers::pi / 180.0;
-
-void turn(Matrix3d& rotation, int axis, double sine, double cosine) {
-  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-  const Vector3d old_j = rotation.col(j);
-  rotation.col(j) = cosine * old_j + sine * rotation.col(k);
-  rotation.col(k) = cosine * rotation.col(k) - sine * old_j;
-}
-
 /// Axis times angle of a rotation; a half turn and more count as a little less.
 Vector3d turn_vector(const Matrix3d& from, const Matrix3d& to) {
   const Matrix3d relative = to * from.transpose();
@@ -42,31 +33,6 @@ Vector3d turn_vector(const Matrix3d& from, const Matrix3d& to) {
   return 0.5 * (1 + u * (1.0 / 3 + u * (2.0 / 15 + u * (2.0 / 35)))) * twice;
 }
 
-/// The bone of an ASF joint, stretched; in the file's unit.
-Vector3d bone_of(const Joint& joint, std::span<const double> channels) {
-  const double length = joint.offset.norm();
-  if (length <= 0) return joint.offset;
-  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-    if (joint.channels[c] == Channel::length) {
-      return joint.offset *
-             (1 + channels[static_cast<std::size_t>(joint.first_channel) + c] / length);
-    }
-  }
-  return joint.offset;
-}
-
-/// Where a joint is in its parent's frame before its own turns; in the file's unit.
-Vector3d translation(const Joint& joint, MotionFormat format, std::span<const double> channels) {
-  Vector3d result = format == MotionFormat::bvh ? joint.offset : Vector3d(Vector3d::Zero());
-  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-    if (is_position(joint.channels[c])) {
-      result[axis_of(joint.channels[c])] =
-          channels[static_cast<std::size_t>(joint.first_channel) + c];
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
@@ -75,7 +41,10 @@ ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
       parents_(coding_parents(*take.skeleton)),
       last_(moving_places(*take.skeleton)),
       channels_(order_.size()),
-      bodies_(take.skeleton->joints.size()) {
+      sources_(take.frames(), take.channels.cols()),
+      decoded_(take.frames(), take.channels.cols()),
+      bodies_(take.skeleton->joints.size()),
+      placement_(take) {
   const Index frames = take.frames();
   for (std::size_t i = 0; i < order_.size(); ++i) {
     Trajectory& channel = channels_[i];
@@ -83,15 +52,12 @@ ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
     channel.compensation.resize(frames, 6);
     channel.residual.resize(frames);
     channel.weight.resize(frames);
-    channel.sine = (take.channels.col(order_[i]).array() * degree).sin().cast<float>();
-    channel.cosine = (take.channels.col(order_[i]).array() * degree).cos().cast<float>();
+    sources_.col(static_cast<Index>(i)) = take.channels.col(order_[i]);
   }
-  const auto make_room = [&](Body& body) {
+  for (PlacedJoint& body : bodies_) {
     body.source.resize(index(frames));
     body.decoded.resize(index(frames));
-  };
-  std::ranges::for_each(bodies_, make_room);
-  make_room(progress_);
+  }
   PoseMetric metric(*take.skeleton, arm_at_one_mm * std::sqrt(bound_mm));
   const std::vector<double> weights(bodies_.size(), 1.0);
   std::vector<ChannelMetric> metrics(order_.size());
@@ -117,75 +83,78 @@ void ChannelQuantiser::set_steps(double step_mm, StepGrid& steps) const {
   }
 }
 
-ChannelMatrix ChannelQuantiser::quantise(CodedChannels& coded) {
-  ChannelMatrix decoded(take_.frames(), take_.channels.cols());
+std::vector<bool> ChannelQuantiser::settled_joints(const CodedChannels& coded) const {
+  std::vector<bool> settled(bodies_.size(), false);
+  if (!done_ || done_->scales != coded.scales) return settled;
+  const StepGrid &steps = coded.steps, &before = done_->steps;
   std::size_t place = 0;
   for (std::size_t j = 0; j < bodies_.size(); ++j) {
-    place_joint(j, place, coded, decoded);
-    place += take_.skeleton->joints[j].channels.size();
+    const Joint& joint = take_.skeleton->joints[j];
+    bool same = joint.parent < 0 || settled[static_cast<std::size_t>(joint.parent)];
+    for (std::size_t c = 0; c < joint.channels.size(); ++c, ++place) {
+      const int group = steps.group(place);
+      same = same && steps.base[place] == before.base[place] &&
+             steps.offsets.col(group) == before.offsets.col(group);
+    }
+    settled[j] = same;
   }
-  return decoded;
+  return settled;
+}
+
+ChannelMatrix ChannelQuantiser::quantise(CodedChannels& coded) {
+  const std::vector<bool> settled = settled_joints(coded);
+  std::size_t place = 0;
+  for (std::size_t j = 0; j < bodies_.size(); ++j) {
+    const std::size_t count = take_.skeleton->joints[j].channels.size();
+    if (settled[j]) {
+      for (std::size_t i = place; i < place + count; ++i) take_over(i, coded);
+    } else {
+      quantise_joint(j, place, coded);
+    }
+    place += count;
+  }
+  done_ = coded;
+  ChannelMatrix result(take_.frames(), take_.channels.cols());
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    result.col(order_[i]) = decoded_.col(static_cast<Index>(i));
+  }
+  return result;
+}
+
+void ChannelQuantiser::take_over(std::size_t place, CodedChannels& coded) const {
+  const auto column = static_cast<Index>(place);
+  coded.knots.col(column) = done_->knots.col(column);
+  if (coded.steps.base[place] < 0) store(place, coded);
+}
+
+void ChannelQuantiser::store(std::size_t place, CodedChannels& coded) const {
+  const auto column = static_cast<Index>(place);
+  coded.steps.base[place] = -1;
+  coded.knots.col(column).setZero();
+  if (coded.stored.cols() == 0) {
+    coded.stored = MatrixXd::Zero(take_.frames(), coded.knots.cols());
+  }
+  coded.stored.col(column) = sources_.col(column);
 }
 
 /// In the order of PoseMetric: place, turns, and for ASF the bone and its stretch.
-void ChannelQuantiser::place_joint(std::size_t j, std::size_t place, CodedChannels& coded,
-                                   ChannelMatrix& decoded) {
-  const Skeleton& skeleton = *take_.skeleton;
-  const Joint& joint = skeleton.joints[j];
-  const bool asf = skeleton.format == MotionFormat::asf_amc, root = joint.parent < 0;
-  const double scale = skeleton.millimetres_per_unit;
-  // Most bones of an ASF skeleton begin where their parent ends.
-  const bool apart = !asf || root || std::ranges::any_of(joint.channels, is_position);
-  Body& progress = progress_;
-  for (Index f = 0; f < take_.frames(); ++f) {
-    const std::span<const double> frame(take_.channels.row(f).data(), order_.size());
-    const Vector3d shift =
-        apart ? translation(joint, skeleton.format, frame) : Vector3d(Vector3d::Zero());
-    const Vector3d bone = asf && root ? bone_of(joint, frame) : Vector3d(Vector3d::Zero());
-    const auto start = [&](const std::vector<JointFrame>* parent) {
-      JointFrame result{Matrix3d::Identity(), Vector3d::Zero()};
-      if (parent != nullptr) result = (*parent)[index(f)];
-      if (asf) result.rotation *= joint.axis;
-      if (apart) result.position += scale * (result.rotation * shift + bone);
-      return result;
-    };
-    const Body* parent = root ? nullptr : &bodies_[static_cast<std::size_t>(joint.parent)];
-    progress.source[index(f)] = start(root ? nullptr : &parent->source);
-    progress.decoded[index(f)] = start(root ? nullptr : &parent->decoded);
-  }
-  bool has_bone = !asf || root;
+void ChannelQuantiser::quantise_joint(std::size_t j, std::size_t place, CodedChannels& coded) {
+  const Joint& joint = take_.skeleton->joints[j];
+  placement_.begin(j,
+                   joint.parent < 0 ? nullptr : &bodies_[static_cast<std::size_t>(joint.parent)]);
   for (const int slot : slots_outwards(joint)) {
-    if (joint.channels[static_cast<std::size_t>(slot)] == Channel::length && !has_bone) {
-      add_bone(j, progress);
-      has_bone = true;
-    }
-    expect(place, progress);
-    quantise_channel(place, coded, decoded);
-    apply(j, slot, place, decoded, progress);
+    placement_.come_to(slot);
+    expect(place);
+    quantise_channel(place, coded);
+    placement_.apply(slot, place, decoded_.col(static_cast<Index>(place)));
     ++place;
   }
-  if (!has_bone) add_bone(j, progress);
-  for (JointFrame& frame : progress.decoded) {
-    if (asf) frame.rotation *= joint.axis.transpose();
-  }
-  std::swap(bodies_[j].decoded, progress.decoded);
-}
-
-void ChannelQuantiser::add_bone(std::size_t j, Body& progress) const {
-  const Joint& joint = take_.skeleton->joints[j];
-  for (Index f = 0; f < take_.frames(); ++f) {
-    const Vector3d bone =
-        take_.skeleton->millimetres_per_unit *
-        (joint.axis.transpose() * bone_of(joint, {take_.channels.row(f).data(), order_.size()}));
-    for (auto* frames : {&progress.source, &progress.decoded}) {
-      JointFrame& frame = (*frames)[index(f)];
-      frame.position += frame.rotation * bone;
-    }
-  }
+  placement_.end(bodies_[j].decoded);
 }
 
 /// The twist of what is placed so far says what the channel had better be off.
-void ChannelQuantiser::expect(std::size_t place, const Body& progress) {
+void ChannelQuantiser::expect(std::size_t place) {
+  const PlacedJoint& progress = placement_.progress();
   Trajectory& channel = channels_[place];
   for (Index f = 0; f < take_.frames(); ++f) {
     const JointFrame& source = progress.source[index(f)];
@@ -199,13 +168,12 @@ void ChannelQuantiser::expect(std::size_t place, const Body& progress) {
   }
 }
 
-void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded,
-                                        ChannelMatrix& decoded) {
+void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded) {
   const Index frames = take_.frames();
   const int levels = coded.shape.levels;
   Trajectory& channel = channels_[i];
   const auto place = static_cast<Index>(i);
-  const auto source = take_.channels.col(order_[i]);
+  const auto source = sources_.col(place);
   MatrixXd column = source - channel.residual.cast<double>();
   NestedKnots::from_frames(column, levels);
   double coarsest = 0;
@@ -220,43 +188,9 @@ void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded,
     coded.knots(f, place) = static_cast<std::int32_t>(value < 0 ? -magnitude : magnitude);
     if (follows) coarsest += coded.knots(f, place) * step;
   }
-  if (wild) {
-    coded.steps.base[i] = -1;
-    coded.knots.col(place).setZero();
-    if (coded.stored.cols() == 0) coded.stored = MatrixXd::Zero(frames, coded.knots.cols());
-    coded.stored.col(place) = source;
-  }
-  decoded.col(order_[i]) = coded.trajectory(i);
-  channel.residual += (decoded.col(order_[i]) - source).cast<float>();
-}
-
-void ChannelQuantiser::apply(std::size_t j, int slot, std::size_t place,
-                             const ChannelMatrix& decoded, Body& progress) const {
-  const Skeleton& skeleton = *take_.skeleton;
-  const Joint& joint = skeleton.joints[j];
-  const Trajectory& own = channels_[place];
-  const auto kind = joint.channels[static_cast<std::size_t>(slot)];
-  Vector3d along = Vector3d::Zero();
-  if (is_position(kind)) along[axis_of(kind)] = 1;
-  if (kind == Channel::length && joint.offset.norm() > 0) {
-    along = joint.offset.normalized();
-    if (joint.parent >= 0) along = joint.axis.transpose() * along;
-  }
-  const bool fixed = kind == Channel::length && joint.parent < 0;
-  for (Index f = 0; f < take_.frames(); ++f) {
-    JointFrame& frame = progress.decoded[index(f)];
-    const double value = decoded(f, order_[place]);
-    if (is_rotation(kind)) {
-      const double radians = value * degree;
-      turn(frame.rotation, axis_of(kind), std::sin(radians), std::cos(radians));
-      turn(progress.source[index(f)].rotation, axis_of(kind), static_cast<double>(own.sine[f]),
-           static_cast<double>(own.cosine[f]));
-      continue;
-    }
-    const Vector3d moved =
-        skeleton.millimetres_per_unit * (value - take_.channels(f, order_[place])) * along;
-    frame.position += fixed ? moved : Vector3d(frame.rotation * moved);
-  }
+  if (wild) store(i, coded);
+  decoded_.col(place) = coded.trajectory(i);
+  channel.residual += (decoded_.col(place) - source).cast<float>();
 }
 
 PositionMatrix ChannelQuantiser::positions() const {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "refine/coded_channels.h"
+#include "refine/joint_placement.h"
 #include "refine/pose_metric.h"
 
 namespace reprise {
@@ -18,7 +20,8 @@ class ChannelQuantiser {
   void set_steps(double step_mm, StepGrid& steps) const;
 
   /// Fills the knots and stored channels of `coded`, whose steps say how; gives its channels.
-  /// Channels whose knots are too large for their step become stored ones.
+  /// Channels whose knots are too large for their step become stored ones. Joints up to which no
+  /// step is another one than last time are as they were then.
   ChannelMatrix quantise(CodedChannels& coded);
 
   /// After `quantise`: where a joint came to be in a frame, less where it was (mm).
@@ -41,28 +44,26 @@ class ChannelQuantiser {
     Twists motion, compensation;
     Eigen::VectorXf residual;  ///< error that was not made up
     Eigen::VectorXf weight;
-    Eigen::VectorXf sine, cosine;
     double mean_weight = 0;
   };
-  /// A joint over all frames.
-  struct Body {
-    std::vector<JointFrame> source, decoded;
-  };
   static std::size_t index(Eigen::Index frame) { return static_cast<std::size_t>(frame); }
-  void place_joint(std::size_t joint, std::size_t first_place, CodedChannels& coded,
-                   ChannelMatrix& decoded);
-  void add_bone(std::size_t joint, Body& progress) const;
-  void expect(std::size_t place, const Body& progress);
-  void quantise_channel(std::size_t place, CodedChannels& coded, ChannelMatrix& decoded);
-  void apply(std::size_t joint, int slot, std::size_t place, const ChannelMatrix& decoded,
-             Body& progress) const;
+  /// Of each joint: `coded` asks for what `done_` asked for, from the root to it.
+  std::vector<bool> settled_joints(const CodedChannels& coded) const;
+  void take_over(std::size_t place, CodedChannels& coded) const;
+  /// Stores a channel's numbers as they are.
+  void store(std::size_t place, CodedChannels& coded) const;
+  void quantise_joint(std::size_t joint, std::size_t first_place, CodedChannels& coded);
+  void expect(std::size_t place);
+  void quantise_channel(std::size_t place, CodedChannels& coded);
 
   const Take& take_;
   std::vector<int> order_, parents_;
   std::vector<int> last_;  ///< of each joint: the last place that moves it, or -1
   std::vector<Trajectory> channels_;
-  std::vector<Body> bodies_;
-  Body progress_;  ///< a joint on its way: turned and placed as far as its channels are done
+  Eigen::MatrixXd sources_, decoded_;  ///< frames x channels in coding order
+  std::vector<PlacedJoint> bodies_;
+  JointPlacement placement_;
+  std::optional<CodedChannels> done_;  ///< what `quantise` made last
 };
 
 }  // namespace reprise

@@ -19,6 +19,7 @@ struct TimeScales {
   static constexpr int most = 8;  ///< of NestedKnots
   int levels = 0;
   int block_levels = 0;
+  bool operator==(const TimeScales&) const = default;
 };
 
 /// Coarsest knots about `seconds` apart, and at least two of them where there are two frames.
