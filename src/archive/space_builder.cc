@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "archive/kind_choice.h"
 #include "archive/parallel.h"
 #include "query/stored_forms.h"
 #include "reprise/error.h"
@@ -10,18 +9,6 @@
 
 namespace reprise {
 namespace {
-
-/// Axes are learned from at most this many takes of a skeleton, evenly spread over their names, and
-/// the coder's contexts from at most this many frames.
-constexpr std::size_t most_training_takes = 1000;
-constexpr long most_context_frames = 60000;
-
-std::vector<std::size_t> spread(const std::vector<std::size_t>& all, std::size_t most) {
-  if (all.size() <= most) return all;
-  std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(all[i * all.size() / most]);
-  return some;
-}
 
 SkeletonRecord skeleton_record(const Skeleton& skeleton, const Digest& structure) {
   SkeletonRecord record;
@@ -38,8 +25,8 @@ SkeletonRecord skeleton_record(const Skeleton& skeleton, const Digest& structure
 std::map<std::string, SpaceAssignment> SpaceBuilder::build(
     const std::vector<FreshTake>& takes, const std::function<void(const std::string&)>& tick) {
   takes_ = &takes;
-  tick_ = tick;
   if (takes.empty()) return {};
+  SpaceTrainer trainer(takes, options_, tick);
   std::map<std::string, Members> by_structure;
   std::vector<std::string> order;
   for (std::size_t i = 0; i < takes.size(); ++i) {
@@ -50,7 +37,7 @@ std::map<std::string, SpaceAssignment> SpaceBuilder::build(
   // Each skeleton on its own: a stopped ingest keeps those that are done.
   for (const std::string& structure : order) {
     store_.begin();
-    build_for_skeleton(by_structure.at(structure));
+    build_for_skeleton(by_structure.at(structure), trainer);
     store_.commit();
   }
   return std::move(assignments_);
@@ -75,19 +62,23 @@ void SpaceBuilder::assign_proportions(std::int64_t skeleton, const Members& memb
   }
 }
 
-void SpaceBuilder::build_for_skeleton(const Members& members) {
+void SpaceBuilder::build_for_skeleton(const Members& members, SpaceTrainer& trainer) {
   const std::int64_t skeleton = skeleton_of(members);
   assign_proportions(skeleton, members);
-  const std::int64_t known = newest_space(skeleton);
-  if (known == 0) {
-    const SpaceRecord record = train(skeleton, members);
-    const std::int64_t id = store_.add_space(record);
-    assign_space(id, members);
-    keep_fits(id);
-  } else {
-    assign_space(known, members);
+  std::int64_t space = newest_space(skeleton);
+  if (space == 0) {
+    const Skeleton reference = reference_skeleton(store_, skeleton);
+    space = store_.add_space({0, skeleton, 0, trainer.train(reference, members)});
   }
-  extend_where_needed(skeleton, members);
+  assign_space(space, members);
+  assign_fits(trainer);
+  const Members unfit = members_outside(members);
+  if (unfit.empty()) return;
+  const auto base = assignments_.at((*takes_)[unfit.front()].file.name).space;
+  Bytes extension = trainer.extend(*base, unfit);
+  if (extension.empty()) return;
+  assign_space(store_.add_space({0, skeleton, space, std::move(extension)}), unfit);
+  assign_fits(trainer);
 }
 
 std::int64_t SpaceBuilder::newest_space(std::int64_t skeleton) {
@@ -108,146 +99,28 @@ void SpaceBuilder::assign_space(std::int64_t id, const Members& members) {
   }
 }
 
-MarkerMoments SpaceBuilder::moments_of(const MarkerLayout& layout, const Members& members,
-                                       bool every_frame) {
-  MarkerMoments moments;
-  produce_in_order(
-      members.size(), options_.jobs,
-      [&](std::size_t m) {
-        MarkerMoments own;
-        const Take take = read_again((*takes_)[members[m]], options_.read);
-        own.add(every_frame ? mark_take(layout, take).markers : sampled_markers(layout, take));
-        return own;
-      },
-      [&](std::size_t, MarkerMoments own) { moments.add(own); });
-  return moments;
+void SpaceBuilder::assign_fits(SpaceTrainer& trainer) {
+  for (auto& [i, fitted] : trainer.take_fits())
+    assignments_[(*takes_)[i].file.name].fitted = std::move(fitted);
 }
 
-SpaceRecord SpaceBuilder::train(std::int64_t skeleton, const Members& members) {
-  const double mean_mm = coarse_mean_mm(options_.fidelity);
-  const Skeleton reference = reference_skeleton(store_, skeleton);
-  const Members training = spread(members, most_training_takes);
-  LayoutEvidence evidence;
-  for (const std::size_t i : training) evidence.add((*takes_)[i].outline.evidence);
-  MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
-  const MarkerMoments moments = moments_of(layout, training, false);
-  const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
-  const auto bytes = encode_space(space, space_precision(space, mean_mm));
-  // From here on everything is as the decoder sees it.
-  const CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
-  const auto prior = train_prior(decoded, training, members.size());
-  return {0, skeleton, 0, pack_space(bytes, prior)};
-}
-
-std::vector<std::uint8_t> SpaceBuilder::train_prior(const CoefficientSpace& space,
-                                                    const Members& training, std::size_t all) {
-  long frames = 0;
-  for (const std::size_t i : training) frames += (*takes_)[i].outline.frames;
-  const double part =
-      std::min(1.0, static_cast<double>(most_context_frames) / static_cast<double>(frames));
-  const Members chosen = spread(
-      training, std::max<std::size_t>(
-                    1, static_cast<std::size_t>(part * static_cast<double>(training.size()))));
-  const double takes_each = static_cast<double>(all) / static_cast<double>(chosen.size());
-  const KnotScales scales = measure_scales(space, chosen, takes_each);
-  const KnotModel model(scales);
-  fits_.clear();
-  produce_in_order(
-      chosen.size(), options_.jobs,
-      [&](std::size_t c) {
-        const Take take = read_again((*takes_)[chosen[c]], options_.read);
-        return fit_take(space, model, take, fit_options(options_));
-      },
-      [&](std::size_t c, FittedTake fitted) {
-        if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));
-        tick_((*takes_)[chosen[c]].file.name);
-      });
-  return cheaper_prior(scales, takes_each);
-}
-
-KnotScales SpaceBuilder::measure_scales(const CoefficientSpace& space, const Members& members,
-                                        double takes_each) {
-  KnotScales scales;
-  std::vector<TakeCurves> curves;
-  produce_in_order(
-      members.size(), options_.jobs,
-      [&](std::size_t m) {
-        const Take take = read_again((*takes_)[members[m]], options_.read);
-        const MarkedTake marked = mark_take(space.layout, take);
-        return TakeCurves{{take.frames(), take.frame_rate},
-                          marked.root.tumbles,
-                          to_trajectories(space, take, marked)};
-      },
-      [&](std::size_t, TakeCurves one) {
-        add_scales(space, one, scales);
-        curves.push_back(std::move(one));
-      });
-  scales.settle();
-  KindCosts costs;
-  const KnotModel model(scales);
-  const int step = guessed_step(coarse_mean_mm(options_.fidelity));
-  produce_in_order(
-      curves.size(), options_.jobs,
-      [&](std::size_t c) { return kind_costs(space, model, curves[c], step); },
-      [&](std::size_t, const KindCosts& own) { costs.add(own, takes_each); });
-  return costs.cheapest(scales);
-}
-
-std::vector<std::uint8_t> SpaceBuilder::cheaper_prior(const KnotScales& scales,
-                                                      double takes_each) const {
-  KnotModel learned(scales);
-  learned.learn_in_common();
-  for (const auto& [i, fitted] : fits_) learned.learn(fitted.shape, fitted.motion.knots);
-  const auto bits = [&](const std::vector<std::uint8_t>& prior) {
-    KnotModel start;
-    start.load_prior(prior);
-    double sum = 0;
-    for (const auto& [i, fitted] : fits_)
-      sum += KnotModel(start).learn(fitted.shape, fitted.motion.knots);
-    return takes_each * sum + 8.0 * static_cast<double>(prior.size());
-  };
-  auto with = learned.prior(true), without = learned.prior(false);
-  return bits(with) < bits(without) ? with : without;
-}
-
-void SpaceBuilder::keep_fits(std::int64_t space) {
-  for (auto& [i, fitted] : fits_) {
-    SpaceAssignment& assignment = assignments_[(*takes_)[i].file.name];
-    if (assignment.space_id == space) assignment.fitted = std::move(fitted);
-  }
-  fits_.clear();
-}
-
-void SpaceBuilder::extend_where_needed(std::int64_t skeleton, const Members& members) {
-  const std::int64_t base_id = assignments_.at((*takes_)[members.front()].file.name).space_id;
-  const auto base = assignments_.at((*takes_)[members.front()].file.name).space;
+SpaceBuilder::Members SpaceBuilder::members_outside(const Members& members) const {
   const double most = FitConstants::most_residual * coarse_mean_mm(options_.fidelity);
   Members unfit;
   produce_in_order(
       members.size(), options_.jobs,
       [&](std::size_t m) {
         const FreshTake& fresh = (*takes_)[members[m]];
-        if (assignments_.at(fresh.file.name).fitted) return false;
+        const SpaceAssignment& assignment = assignments_.at(fresh.file.name);
+        if (assignment.fitted) return false;
+        const CoefficientSpace& space = assignment.space->space;
         const Take take = read_again(fresh, options_.read);
-        return residual_mm(base->space, mark_take(base->space.layout, take).markers) > most;
+        return residual_mm(space, mark_take(space.layout, take).markers) > most;
       },
       [&](std::size_t m, bool unfits) {
         if (unfits) unfit.push_back(members[m]);
       });
-  if (unfit.empty()) return;
-  const double mean_mm = coarse_mean_mm(options_.fidelity);
-  const MarkerMoments moments = moments_of(base->space.layout, unfit, true);
-  const CoefficientSpace space = extend_space(base->space, moments, mean_mm);
-  const int known = static_cast<int>(base->space.axes.cols());
-  if (space.axes.cols() == known) return;
-  const auto bytes = encode_extension(space, known, space_precision(space, mean_mm));
-  SpaceRecord record{0, skeleton, base_id, {}};
-  record.data =
-      pack_space(bytes, train_prior(decode_space(bytes, base->space.layout.reference, &base->space),
-                                    unfit, unfit.size()));
-  const std::int64_t id = store_.add_space(record);
-  assign_space(id, unfit);
-  keep_fits(id);
+  return unfit;
 }
 
 std::map<std::string, SpaceAssignment> SpaceBuilder::build_plain(

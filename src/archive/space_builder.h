@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "archive/take_fit.h"
-#include "archive/take_identity.h"
+#include "archive/space_trainer.h"
 
 namespace reprise {
 
@@ -37,33 +36,24 @@ class SpaceBuilder {
       const std::map<std::string, SpaceAssignment>& assignments);
 
  private:
-  using Members =
-      std::vector<std::size_t>;  // indices of takes with one skeleton structure, by name
+  using Members = SpaceTrainer::Members;
 
-  void build_for_skeleton(const Members& members);
+  void build_for_skeleton(const Members& members, SpaceTrainer& trainer);
   std::int64_t skeleton_of(const Members& members);
   void assign_proportions(std::int64_t skeleton, const Members& members);
   void assign_space(std::int64_t id, const Members& members);
-  void extend_where_needed(std::int64_t skeleton, const Members& members);
-  MarkerMoments moments_of(const MarkerLayout& layout, const Members& members, bool every_frame);
+  /// Of takes that training has fitted.
+  void assign_fits(SpaceTrainer& trainer);
+  /// Takes that the space assigned to them leaves too far off.
+  Members members_outside(const Members& members) const;
   /// The space that later takes join: the newest that goes through markers; 0 where there is none.
   std::int64_t newest_space(std::int64_t skeleton);
   std::int64_t plain_space(std::int64_t skeleton);
-  SpaceRecord train(std::int64_t skeleton, const Members& members);
-  /// What the coder learns from some of the `training` takes, where that pays for `all` takes.
-  std::vector<std::uint8_t> train_prior(const CoefficientSpace& space, const Members& training,
-                                        std::size_t all);
-  KnotScales measure_scales(const CoefficientSpace& space, const Members& members,
-                            double takes_each);
-  std::vector<std::uint8_t> cheaper_prior(const KnotScales& scales, double takes_each) const;
-  void keep_fits(std::int64_t space);
 
   ArchiveStore& store_;
   const IngestOptions& options_;
   const std::vector<FreshTake>* takes_ = nullptr;
-  std::function<void(const std::string&)> tick_;
   std::map<std::string, SpaceAssignment> assignments_;
-  std::map<std::size_t, FittedTake> fits_;  // made on the way to a prior
 };
 
 }  // namespace reprise

@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
 
+#include "rma/clip_costs.h"
+#include "rma/clip_cover.h"
+
 namespace reprise {
 namespace {
-
-double standard_deviation(const std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const double count = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / count);
-}
 
 /// A primary and its repeats as they would be now.
 struct Proposal {
@@ -72,8 +65,9 @@ class Chooser {
   }
 
   std::vector<ChosenClip> finish() {
-    for (std::size_t take = 0; take < free_.size(); ++take) add_unique(take);
-    return in_order();
+    std::vector<long> samples;
+    for (const PostureMatrix& take : library_.postures) samples.push_back(take.rows());
+    return cover_takes(std::move(clips_), samples, least_);
   }
 
  private:
@@ -170,55 +164,6 @@ class Chooser {
       free_[clip.take][static_cast<std::size_t>(s)] = false;
   }
 
-  /// What is left of a take becomes unique; bits that are too short go to the clip before, or to
-  /// the one after, where that is no primary: primaries are what others refer to.
-  void add_unique(std::size_t take) {
-    std::vector<std::size_t> here;
-    for (std::size_t c = 0; c < clips_.size(); ++c) {
-      if (clips_[c].take == take) here.push_back(c);
-    }
-    std::ranges::sort(here, {}, [&](std::size_t c) { return clips_[c].begin; });
-    long at = 0;
-    const long end = library_.postures[take].rows();
-    for (std::size_t i = 0; i <= here.size(); ++i) {
-      const long next = i < here.size() ? clips_[here[i]].begin : end;
-      if (next > at) fill_gap(take, at, next, i, here);
-      if (i < here.size()) at = clips_[here[i]].end;
-    }
-  }
-
-  void fill_gap(std::size_t take, long begin, long end, std::size_t position,
-                const std::vector<std::size_t>& here) {
-    const auto repeats = [&](std::size_t c) { return clips_[c].role == ClipRole::repeated; };
-    if (end - begin < least_ && position > 0 && repeats(here[position - 1])) {
-      ChosenClip& clip = clips_[here[position - 1]];
-      clip.reference.resize(static_cast<std::size_t>(end - clip.begin), clip.reference.back());
-      clip.end = end;
-    } else if (end - begin < least_ && position < here.size() && repeats(here[position])) {
-      ChosenClip& clip = clips_[here[position]];
-      clip.reference.insert(clip.reference.begin(), static_cast<std::size_t>(end - begin),
-                            clip.reference.front());
-      clip.begin = begin;
-    } else {
-      clips_.push_back({take, begin, end, ClipRole::unique, 0, {}});
-    }
-  }
-
-  /// By take and time, with the indices of primaries brought along.
-  std::vector<ChosenClip> in_order() const {
-    std::vector<std::size_t> order(clips_.size()), place(clips_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {},
-                      [&](std::size_t c) { return std::tuple(clips_[c].take, clips_[c].begin); });
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-    std::vector<ChosenClip> clips;
-    for (const std::size_t c : order) {
-      clips.push_back(clips_[c]);
-      if (clips.back().role == ClipRole::repeated) clips.back().primary = place[clips_[c].primary];
-    }
-    return clips;
-  }
-
   const PostureLibrary& library_;
   long least_, least_repeated_, least_primary_;
   std::map<std::tuple<std::size_t, long, long>, std::size_t> standing_;  ///< take, begin, end
@@ -227,26 +172,6 @@ class Chooser {
 };
 
 }  // namespace
-
-double primary_cost(const PostureMatrix& take, long begin, long end) {
-  const long median = begin + (end - begin) / 2;
-  std::vector<double> distances;
-  for (long s = begin; s < end; ++s) {
-    distances.push_back((take.row(median) - take.row(s)).norm());
-  }
-  return standard_deviation(distances) * static_cast<double>(end - begin) +
-         (take.row(median) - take.row(0)).norm();
-}
-
-double repeated_cost(const PostureMatrix& take, long begin, long end, const PostureMatrix& other,
-                     std::span<const long> reference) {
-  std::vector<double> distances;
-  for (long s = begin; s < end; ++s) {
-    distances.push_back(
-        (other.row(reference[static_cast<std::size_t>(s - begin)]) - take.row(s)).norm());
-  }
-  return standard_deviation(distances) * static_cast<double>(end - begin);
-}
 
 std::vector<ChosenClip> choose_clips(const PostureLibrary& library,
                                      std::span<const RepeatGroup> groups,

@@ -1,10 +1,10 @@
 // Which clips are primary, which repeat one, and which are unique (lin-2011 section 4.2.2).
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "rma/chosen_clip.h"
 #include "rma/repeat_groups.h"
 
 namespace reprise {
@@ -17,29 +17,6 @@ struct ClipChoiceConstants {
   /// The shortest primary (s): below it a clip's row costs more than it can save.
   double least_primary_s = 0.6;
 };
-
-enum class ClipRole { primary, repeated, unique };
-
-/// Samples [begin, end) of a take.
-struct ChosenClip {
-  std::size_t take = 0;
-  long begin = 0;
-  long end = 0;
-  ClipRole role = ClipRole::unique;
-  std::size_t primary = 0;  ///< of a repeated clip: the index of its primary among all clips
-  /// Of a repeated clip: of each of its samples the sample of the primary's take beside it, in
-  /// order and within the primary.
-  std::vector<long> reference;
-};
-
-/// What it costs to code a clip by itself: equation 2. Distances are those of projected postures
-/// (mm), the initial posture is the take's first.
-double primary_cost(const PostureMatrix& take, long begin, long end);
-
-/// What it costs to code a clip as differences from its reference: equation 3. `reference` has a
-/// sample of `other` for each of [begin, end).
-double repeated_cost(const PostureMatrix& take, long begin, long end, const PostureMatrix& other,
-                     std::span<const long> reference);
 
 /// Equation 5: the group with the greatest gain makes its reference a primary and its members
 /// repeated clips, as far as they are not part of a clip yet; what is left over stays for the

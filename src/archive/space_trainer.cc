@@ -1,0 +1,138 @@
+#include "archive/space_trainer.h"
+
+#include <algorithm>
+
+#include "archive/kind_choice.h"
+#include "archive/parallel.h"
+
+namespace reprise {
+namespace {
+
+/// Axes are learned from at most this many takes of a skeleton, evenly spread over their names, and
+/// the coder's contexts from at most this many frames.
+constexpr std::size_t most_training_takes = 1000;
+constexpr long most_context_frames = 60000;
+
+std::vector<std::size_t> spread(const std::vector<std::size_t>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(all[i * all.size() / most]);
+  return some;
+}
+
+}  // namespace
+
+Bytes SpaceTrainer::train(const Skeleton& reference, const Members& members) {
+  const double mean_mm = coarse_mean_mm(options_.fidelity);
+  const Members training = spread(members, most_training_takes);
+  LayoutEvidence evidence;
+  for (const std::size_t i : training) evidence.add(takes_[i].outline.evidence);
+  MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
+  const MarkerMoments moments = moments_of(layout, training, false);
+  const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
+  const auto bytes = encode_space(space, space_precision(space, mean_mm));
+  // From here on everything is as the decoder sees it.
+  const CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
+  const auto prior = train_prior(decoded, training, members.size());
+  return pack_space(bytes, prior);
+}
+
+Bytes SpaceTrainer::extend(const CodedSpace& base, const Members& unfit) {
+  const double mean_mm = coarse_mean_mm(options_.fidelity);
+  const MarkerMoments moments = moments_of(base.space.layout, unfit, true);
+  const CoefficientSpace space = extend_space(base.space, moments, mean_mm);
+  const int known = static_cast<int>(base.space.axes.cols());
+  if (space.axes.cols() == known) return {};
+  const auto bytes = encode_extension(space, known, space_precision(space, mean_mm));
+  // From here on everything is as the decoder sees it.
+  const CoefficientSpace decoded = decode_space(bytes, base.space.layout.reference, &base.space);
+  return pack_space(bytes, train_prior(decoded, unfit, unfit.size()));
+}
+
+MarkerMoments SpaceTrainer::moments_of(const MarkerLayout& layout, const Members& members,
+                                       bool every_frame) const {
+  MarkerMoments moments;
+  produce_in_order(
+      members.size(), options_.jobs,
+      [&](std::size_t m) {
+        MarkerMoments own;
+        const Take take = read_again(takes_[members[m]], options_.read);
+        own.add(every_frame ? mark_take(layout, take).markers : sampled_markers(layout, take));
+        return own;
+      },
+      [&](std::size_t, MarkerMoments own) { moments.add(own); });
+  return moments;
+}
+
+std::vector<std::uint8_t> SpaceTrainer::train_prior(const CoefficientSpace& space,
+                                                    const Members& training, std::size_t all) {
+  long frames = 0;
+  for (const std::size_t i : training) frames += takes_[i].outline.frames;
+  const double part =
+      std::min(1.0, static_cast<double>(most_context_frames) / static_cast<double>(frames));
+  const Members chosen = spread(
+      training, std::max<std::size_t>(
+                    1, static_cast<std::size_t>(part * static_cast<double>(training.size()))));
+  const double takes_each = static_cast<double>(all) / static_cast<double>(chosen.size());
+  const KnotScales scales = measure_scales(space, chosen, takes_each);
+  const KnotModel model(scales);
+  fits_.clear();
+  produce_in_order(
+      chosen.size(), options_.jobs,
+      [&](std::size_t c) {
+        const Take take = read_again(takes_[chosen[c]], options_.read);
+        return fit_take(space, model, take, fit_options(options_));
+      },
+      [&](std::size_t c, FittedTake fitted) {
+        if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));
+        tick_(takes_[chosen[c]].file.name);
+      });
+  return cheaper_prior(scales, takes_each);
+}
+
+KnotScales SpaceTrainer::measure_scales(const CoefficientSpace& space, const Members& members,
+                                        double takes_each) const {
+  KnotScales scales;
+  std::vector<TakeCurves> curves;
+  produce_in_order(
+      members.size(), options_.jobs,
+      [&](std::size_t m) {
+        const Take take = read_again(takes_[members[m]], options_.read);
+        const MarkedTake marked = mark_take(space.layout, take);
+        return TakeCurves{{take.frames(), take.frame_rate},
+                          marked.root.tumbles,
+                          to_trajectories(space, take, marked)};
+      },
+      [&](std::size_t, TakeCurves one) {
+        add_scales(space, one, scales);
+        curves.push_back(std::move(one));
+      });
+  scales.settle();
+  KindCosts costs;
+  const KnotModel model(scales);
+  const int step = guessed_step(coarse_mean_mm(options_.fidelity));
+  produce_in_order(
+      curves.size(), options_.jobs,
+      [&](std::size_t c) { return kind_costs(space, model, curves[c], step); },
+      [&](std::size_t, const KindCosts& own) { costs.add(own, takes_each); });
+  return costs.cheapest(scales);
+}
+
+std::vector<std::uint8_t> SpaceTrainer::cheaper_prior(const KnotScales& scales,
+                                                      double takes_each) const {
+  KnotModel learned(scales);
+  learned.learn_in_common();
+  for (const auto& [i, fitted] : fits_) learned.learn(fitted.shape, fitted.motion.knots);
+  const auto bits = [&](const std::vector<std::uint8_t>& prior) {
+    KnotModel start;
+    start.load_prior(prior);
+    double sum = 0;
+    for (const auto& [i, fitted] : fits_)
+      sum += KnotModel(start).learn(fitted.shape, fitted.motion.knots);
+    return takes_each * sum + 8.0 * static_cast<double>(prior.size());
+  };
+  auto with = learned.prior(true), without = learned.prior(false);
+  return bits(with) < bits(without) ? with : without;
+}
+
+}  // namespace reprise

@@ -1,0 +1,50 @@
+// Learns spaces from takes: axes, and where the contexts of their coder start.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "archive/take_fit.h"
+#include "archive/take_identity.h"
+
+namespace reprise {
+
+class SpaceTrainer {
+ public:
+  /// Indices of takes of one skeleton structure, by name.
+  using Members = std::vector<std::size_t>;
+
+  /// Keeps references to the takes and options. `tick` hears of each take that was fitted.
+  SpaceTrainer(const std::vector<FreshTake>& takes, const IngestOptions& options,
+               std::function<void(const std::string&)> tick)
+      : takes_(takes), options_(options), tick_(std::move(tick)) {}
+
+  /// A space for a skeleton's takes, packed (pack_space).
+  Bytes train(const Skeleton& reference, const Members& members);
+
+  /// What `base` lacks for takes that do not fit it, packed; empty where further axes do not help.
+  Bytes extend(const CodedSpace& base, const Members& unfit);
+
+  /// Takes that were fitted to the last of these spaces on the way, each by its index.
+  std::map<std::size_t, FittedTake> take_fits() { return std::exchange(fits_, {}); }
+
+ private:
+  MarkerMoments moments_of(const MarkerLayout& layout, const Members& members,
+                           bool every_frame) const;
+  /// What the coder learns from some of the `training` takes, where that pays for `all` takes.
+  std::vector<std::uint8_t> train_prior(const CoefficientSpace& space, const Members& training,
+                                        std::size_t all);
+  KnotScales measure_scales(const CoefficientSpace& space, const Members& members,
+                            double takes_each) const;
+  std::vector<std::uint8_t> cheaper_prior(const KnotScales& scales, double takes_each) const;
+
+  const std::vector<FreshTake>& takes_;
+  const IngestOptions& options_;
+  std::function<void(const std::string&)> tick_;
+  std::map<std::size_t, FittedTake> fits_;
+};
+
+}  // namespace reprise
