@@ -154,8 +154,9 @@ class Walk {
     const auto in_bins = [&](std::uint64_t sum, std::uint32_t count, int per_octave) {
       return bin(finer(sum, offset) >> size_bits, count, per_octave);
     };
-    const auto around = [f, step](const std::uint64_t* sizes) {
-      return 2 * sizes[f] + sizes[f - step] + sizes[f + step];
+    const auto around = [&place](const std::uint64_t* sizes) {  // clang 14: not the binding
+      return 2 * sizes[place.frame] + sizes[place.frame - place.step] +
+             sizes[place.frame + place.step];
     };
     const std::uint64_t before = own_[f - step];
     const std::uint64_t coarser = apart > 0 ? own_[f - apart] + own_[f + apart] : 0;
