@@ -6,6 +6,18 @@
 #include "reprise/error.h"
 
 namespace reprise::cli {
+namespace {
+
+std::string take_of(const Archive& archive, const std::string& id) {
+  const Archive::Selection selection = archive.find(id);
+  if (selection.clip) {
+    throw Error(ErrorCode::not_found, "'" + id + "' is a clip; only whole takes are removed", {},
+                "its take is " + selection.take.name);
+  }
+  return selection.take.name;
+}
+
+}  // namespace
 
 void RemoveCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
@@ -19,7 +31,7 @@ ExitCode RemoveCommand::run(Console& console) {
   {
     const Archive archive(archive_);
     for (const std::string& id : ids_) {
-      const std::string name = archive.find_take(id).name;
+      const std::string name = take_of(archive, id);
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }

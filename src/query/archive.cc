@@ -2,6 +2,7 @@
 #include "reprise/archive.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "query/archive_impl.h"
@@ -51,6 +52,18 @@ std::string candidate_list(const std::vector<std::string>& names) {
 [[noreturn]] void throw_unknown(const std::string& what, const std::string& id) {
   throw Error(ErrorCode::not_found, "there is no " + what + " '" + id + "'", {},
               "reprise list shows the names");
+}
+
+/// Names that are this one or end in it after a slash. Of x.bvh beside x.amc, whose extensions are
+/// parts of their names, x is both.
+std::vector<std::string> names_meant(const ArchiveStore& store, const std::string& id) {
+  std::vector<std::string> names = store.take_names_ending_in(id, most_candidates + 1);
+  if (!names.empty()) return names;
+  for (const char* extension : {".amc", ".bvh"}) {
+    std::ranges::move(store.take_names_ending_in(id + extension, most_candidates + 1),
+                      std::back_inserter(names));
+  }
+  return names;
 }
 
 }  // namespace
@@ -109,7 +122,7 @@ ArchiveInfo Archive::info() const {
 TakeInfo Archive::find_take(const std::string& id) const {
   const auto snapshot = impl_->snapshot();
   if (const auto exact = impl_->store.find_take(id)) return exact->info;
-  const std::vector<std::string> names = impl_->store.take_names_ending_in(id, most_candidates + 1);
+  const std::vector<std::string> names = names_meant(impl_->store, id);
   if (names.size() > 1) throw_ambiguous(id, names);
   if (names.empty()) throw_unknown("take", id);
   const auto found = impl_->store.find_take(names[0]);

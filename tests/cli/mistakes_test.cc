@@ -77,6 +77,32 @@ TEST_F(MistakesTest, APartThatIsNotThereIsWrongUsage) {
   }
 }
 
+TEST_F(MistakesTest, AClipIsNotRemoved) {
+  make_library();
+  const auto clip = document({"list", "lib.rpz", "--clips"}).at("clips").at(0);
+  const Outcome outcome = reprise({"remove", "lib.rpz", clip.at("id")});
+  EXPECT_EQ(outcome.exit_code, 7);
+  EXPECT_NE(outcome.err.find("is a clip"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(clip.at("take")), std::string::npos) << outcome.err;
+  EXPECT_EQ(take_names().size(), 4U);
+}
+
+TEST_F(MistakesTest, ANameWithoutTheExtensionsThatTellTakesApartIsAmbiguous) {
+  output({"synth", "both", "--takes", "1", "--seconds", "2", "--subjects", "1"});
+  output({"synth", "amc", "--takes", "1", "--seconds", "2", "--subjects", "1", "--format", "amc"});
+  for (const char* name : {"s01.asf", "s01_01.amc"}) {
+    fs::copy_file(folder() / "amc/s01" / name, folder() / "both/s01" / name);
+  }
+  output({"ingest", "both.rpz", "both"});
+  EXPECT_EQ(take_names("both.rpz"), (std::vector<std::string>{"s01/s01_01.amc", "s01/s01_01.bvh"}));
+  const Outcome outcome = reprise({"info", "both.rpz", "s01_01"});
+  EXPECT_EQ(outcome.exit_code, 7);
+  EXPECT_NE(outcome.err.find("ambiguous: s01/s01_01.amc, s01/s01_01.bvh"), std::string::npos)
+      << outcome.err;
+  output({"remove", "both.rpz", "s01_01.amc"});
+  EXPECT_NE(output({"info", "both.rpz", "s01_01"}).find("s01/s01_01.bvh"), std::string::npos);
+}
+
 TEST_F(MistakesTest, AnArchiveAmongTheInputsIsCalledOne) {
   make_library();
   const nlohmann::json report = document({"ingest", "new.rpz", "lib.rpz"}, 3);
