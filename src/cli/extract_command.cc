@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 
 #include "cli/interruption.h"
 #include "cli/json_output.h"
+#include "cli/motion_output.h"
+#include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/text.h"
 #include "reprise/error.h"
@@ -15,61 +16,6 @@ namespace fs = std::filesystem;
 
 namespace reprise::cli {
 namespace {
-
-/// Writes takes into files, each AMC with its ASF.
-class MotionWriter {
- public:
-  MotionWriter(const fs::path& archive, bool overwrite)
-      : archive_(archive), overwrite_(overwrite) {}
-
-  /// Returns the files written, the motion (`text`) first.
-  std::vector<fs::path> write(const Skeleton& skeleton, const std::string& text,
-                              const fs::path& target) {
-    std::vector<fs::path> files{target};
-    refuse_archive(target, archive_);
-    if (skeleton.format == MotionFormat::asf_amc) files.push_back(write_skeleton(skeleton, target));
-    write_file_atomically(target, text, overwrite_);
-    return files;
-  }
-
- private:
-  /// Takes of one folder usually share their ASF: it is written once, and stays where it is there
-  /// already.
-  fs::path write_skeleton(const Skeleton& skeleton, const fs::path& motion) {
-    const std::string stem = skeleton.asf_name.empty() ? motion.stem().string() : skeleton.asf_name;
-    fs::path target = path_inside(motion.parent_path(), file_name_of(stem));
-    const auto written = written_.find(target.string());
-    if (written != written_.end()) {
-      if (written->second == skeleton.source_text) return target;
-      // Another skeleton of the same name; an ASF with the take's own name is found before any
-      // other.
-      target = fs::path(motion).replace_extension(".asf");
-    }
-    if (target == motion) {
-      throw Error(ErrorCode::failed, "the skeleton and the motion would be one file",
-                  {target.string(), 0}, "give the motion a name that ends in .amc");
-    }
-    refuse_archive(target, archive_);
-    if (!file_has_content(target, skeleton.source_text)) {
-      write_file_atomically(target, skeleton.source_text, overwrite_);
-    }
-    written_[target.string()] = skeleton.source_text;
-    return target;
-  }
-
-  /// A name from an archive as one component of a path.
-  static std::string file_name_of(const std::string& stem) {
-    if (stem.find('/') != std::string::npos) {
-      throw Error(ErrorCode::damaged,
-                  "the archive names a skeleton in another folder: \"" + stem + "\"");
-    }
-    return stem + ".asf";
-  }
-
-  fs::path archive_;
-  bool overwrite_;
-  std::map<std::string, std::string> written_;  ///< path of an ASF and its text
-};
 
 Json entry_of(const PlannedExtract& entry, const std::vector<fs::path>& files) {
   Json json = {{"id", entry.id},
@@ -184,14 +130,14 @@ ExitCode ExtractCommand::run(Console& console) {
   }
 
   Json entries = Json::array();
-  MotionWriter writer(archive_, overwrite_);
+  MotionOutput output(archive_, overwrite_);
   ProgressBar bar("extract", console.progress_terminal());
   for (std::size_t i = 0; i < plan.size(); ++i) {
     InterruptionGuard::check();
     bar.show({i, plan.size(), plan[i].take.name});
     const MotionText motion = motion_text(archive, plan[i], request_.fidelity);
     if (!folder_.empty()) make_folder_of(targets[i]);
-    const std::vector<fs::path> files = writer.write(*motion.skeleton, motion.text, targets[i]);
+    const std::vector<fs::path> files = output.write(*motion.skeleton, motion.text, targets[i]);
     for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
     entries.push_back(entry_of(plan[i], files));
   }

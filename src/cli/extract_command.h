@@ -21,8 +21,6 @@ class ExtractCommand : public Command {
   ExtractRequest request_;
   std::filesystem::path file_;
   std::filesystem::path folder_;
-  std::string frames_;
-  std::string time_;
   bool overwrite_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/intervals.h"
 #include "reprise/archive.h"
 
 namespace reprise::cli {

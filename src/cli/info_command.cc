@@ -4,6 +4,7 @@
 
 #include "cli/json_output.h"
 #include "cli/text.h"
+#include "reprise/error.h"
 #include "reprise/query/body_joints.h"
 #include "reprise/query/key_poses.h"
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string_view>
 
+#include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
 #include "cli/suggestion.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/intervals.h"
 #include "cli/json_output.h"
 #include "cli/text.h"
 #include "reprise/error.h"

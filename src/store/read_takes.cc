@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "store/compression.h"
+#include "store/full_text.h"
 #include "store/store_impl.h"
 
 namespace reprise {
@@ -60,48 +61,6 @@ TakeRecord whole_record(const Database& database, const StoredTake& stored,
   info.format = facts.format;
   info.raw_bytes = 4 * facts.channels * static_cast<std::uint64_t>(info.frames);
   return record;
-}
-
-/// Text for FTS5 in which every word must be found, whatever signs are in it.
-std::string all_words(const std::string& text) {
-  std::string query, word;
-  for (const char c : text + " ") {
-    if (static_cast<unsigned char>(c) > ' ') {
-      word += c;
-      if (c == '"') word += c;
-      continue;
-    }
-    if (!word.empty()) query += (query.empty() ? "" : " AND ") + ("\"" + word + "\"");
-    word.clear();
-  }
-  return query;
-}
-
-/// Takes whose words match, searched with FTS5 in a table that lives only in memory: nothing that
-/// is stored can be out of date or damaged.
-std::vector<TakeInfo> matching(const Database& database, const std::vector<TakeInfo>& takes,
-                               const std::string& text) {
-  Statement(database,
-            "CREATE VIRTUAL TABLE temp.words USING fts5(name, subject, description, tags)")
-      .run();
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    Statement(database,
-              "INSERT INTO temp.words(rowid, name, subject, description, tags) VALUES(?,?,?,?,?)")
-        .bind(static_cast<std::int64_t>(i))
-        .bind(takes[i].name)
-        .bind(takes[i].subject)
-        .bind(takes[i].description)
-        .bind(takes[i].tags)
-        .run();
-  }
-  std::vector<TakeInfo> result;
-  {
-    Statement found(database, "SELECT rowid FROM temp.words WHERE words MATCH ? ORDER BY rowid");
-    found.bind(all_words(text));
-    while (found.step()) result.push_back(takes[static_cast<std::size_t>(found.integer())]);
-  }
-  Statement(database, "DROP TABLE temp.words").run();
-  return result;
 }
 
 /// Whether a take has this name, or one that ends in it after a slash.
@@ -201,7 +160,7 @@ std::vector<TakeInfo> ArchiveStore::takes(const TakeFilter& filter) const {
     for_each_take_with(terms, add_if_fitting);
   }
   std::ranges::sort(takes, {}, &TakeInfo::name);
-  return filter.text.empty() ? takes : matching(*impl_->database, takes, filter.text);
+  return filter.text.empty() ? takes : takes_with_words(*impl_->database, takes, filter.text);
 }
 
 bool ArchiveStore::has_clip_of_kind(std::int64_t take, ClipKind kind) const {

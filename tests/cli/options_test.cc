@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/ingest_command.h"
+#include "cli/intervals.h"
 #include "reprise/error.h"
 
 namespace reprise::cli {

@@ -1,0 +1,26 @@
+// What an archive is as a file: how it begins, what tables it has, and how it comes to be.
+#pragma once
+
+#include <filesystem>
+
+#include "store/database.h"
+
+namespace reprise {
+
+/// What the file is, read from its header alone: another format may have another kind of pages.
+/// Through SQLite's own descriptor: closing another one would drop the locks of this process.
+/// Throws Error: damaged, newer_version.
+void check_header(const Database& database);
+
+/// Identity, size and tables of an archive that was opened. Throws Error: damaged, newer_version.
+void check_identity(Database& database);
+
+/// Puts an archive without takes where no file is, whole from the first moment on: a writer that
+/// dies leaves an archive, not a part of one. False if there is a file already.
+/// Throws Error: limit, failed.
+bool create_if_missing(const std::filesystem::path& path);
+
+/// What `PRAGMA name` says.
+std::int64_t pragma(const Database& database, const std::string& name);
+
+}  // namespace reprise
