@@ -1,6 +1,8 @@
 // Opening and closing an archive file.
 #include "store/archive_store.h"
 
+#include <cassert>
+
 #include "store/archive_file.h"
 #include "store/store_impl.h"
 
@@ -56,6 +58,10 @@ ArchiveStore ArchiveStore::open_for_writing(const fs::path& path) {
   Statement(*impl->database, "SELECT count(*) FROM sqlite_schema").step();
   check_identity(*impl->database);
   return ArchiveStore(std::move(impl));
+}
+
+void ArchiveStore::Impl::require_transaction() const {
+  assert(writing && in_transaction && "writes belong in a transaction");
 }
 
 void ArchiveStore::begin() {

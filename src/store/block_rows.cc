@@ -161,8 +161,13 @@ std::int64_t key_of_name(const std::string& name) {
   return key_of_address(address);
 }
 
+std::string leaf_of(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  return slash == std::string::npos ? name : name.substr(slash + 1);
+}
+
 std::set<std::int64_t> keys_of(const TakeInfo& take, std::span<const ClipRecord> clips) {
-  std::set<std::int64_t> keys = {key_of_name(split_name(take.name).second), key_of_name(take.name)};
+  std::set<std::int64_t> keys = {key_of_name(leaf_of(take.name)), key_of_name(take.name)};
   for (const ClipRecord& clip : clips) keys.insert(key_of_address(clip.id));
   return keys;
 }

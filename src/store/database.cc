@@ -1,5 +1,7 @@
 #include "store/database.h"
 
+#include <cstring>
+
 #include "store/page_checksum_vfs.h"
 
 namespace reprise {
@@ -31,7 +33,8 @@ ErrorCode code_of(int result) {
   }
 }
 
-std::string reason_of(int result, const std::string& message) {
+/// `number` is the system's errno where the file could not be opened.
+std::string reason_of(int result, const std::string& message, int number) {
   switch (code_of(result)) {
     case ErrorCode::damaged:
       if ((result & 0xff) == SQLITE_NOTADB) return "this is not a Reprise archive";
@@ -45,7 +48,9 @@ std::string reason_of(int result, const std::string& message) {
     case ErrorCode::locked:
       return "the archive is in use by another process";
     default:
-      return (result & 0xff) == SQLITE_CANTOPEN ? "the archive cannot be opened" : message;
+      if ((result & 0xff) != SQLITE_CANTOPEN) return message;
+      return "the archive cannot be opened" +
+             (number != 0 ? std::string(": ") + std::strerror(number) : std::string());
   }
 }
 
@@ -85,7 +90,8 @@ int Database::read_file(std::span<std::byte> to, std::int64_t offset) const {
 
 void Database::fail(int code) const {
   const std::string message = handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code);
-  throw Error(code_of(code), reason_of(code, message), {path_.string()});
+  const int number = handle_ ? sqlite3_system_errno(handle_.get()) : 0;
+  throw Error(code_of(code), reason_of(code, message, number), {path_.string()});
 }
 
 Statement::Statement(const Database& database, std::string_view sql) : database_(database) {

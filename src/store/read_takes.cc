@@ -91,7 +91,7 @@ void ArchiveStore::for_each_take_with(const std::set<std::int64_t>& terms,
 
 std::vector<TakeRecord> ArchiveStore::takes_named(const std::string& tail, bool whole) const {
   std::vector<TakeRecord> records;
-  const std::int64_t key = key_of_name(whole ? tail : split_name(tail).second);
+  const std::int64_t key = key_of_name(whole ? tail : leaf_of(tail));
   SharedFactsById known;
   for (const std::int64_t id : impl_->takes_with_keys(key, key)) {
     const auto block = impl_->block(block_of(id));

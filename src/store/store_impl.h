@@ -7,34 +7,16 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "store/archive_store.h"
 #include "store/database.h"
 #include "store/digest.h"
+#include "store/row_digests.h"
 #include "store/take_block.h"
 #include "store/terms.h"
+#include "store/writer_lock.h"
 
 namespace reprise {
-
-/// The archive file held for writing by this process. SQLite's own locks are of another kind
-/// (POSIX), so both can be on one file; this one must be let go after SQLite has closed, since
-/// closing any descriptor of a file drops the POSIX locks on it.
-class WriterLock {
- public:
-  /// Throws Error (locked, failed). Where this process has `created` the file, it goes with the
-  /// lock unless keep() was called: an archive that nothing was stored in is no archive.
-  WriterLock(const std::filesystem::path& path, bool created);
-  ~WriterLock();
-  WriterLock(const WriterLock&) = delete;
-  WriterLock& operator=(const WriterLock&) = delete;
-  void keep() { created_ = false; }
-
- private:
-  std::filesystem::path path_;
-  int descriptor_ = -1;
-  bool created_ = false;
-};
 
 struct ArchiveStore::Impl {
   std::optional<WriterLock> lock;  // let go last
@@ -102,15 +84,7 @@ std::set<std::int64_t> keys_of(const TakeInfo& take, std::span<const ClipRecord>
 std::vector<ClipRecord> clips_of(std::int64_t take, const StoredTake& stored);
 std::vector<StoredClip> stored_clips(std::int64_t take, std::span<const ClipRecord> clips);
 
-/// "a/b/c" as folder "a/b" and leaf "c".
-std::pair<std::string, std::string> split_name(const std::string& name);
-
-/// Digests of rows (docs/format.md).
-ShortDigest row_digest(const SkeletonRecord& record);
-Digest proportions_identity(const ProportionsRecord& record);
-Digest space_digest(const Digest& structure, const Digest& base, const Bytes& data);
-/// What a take is, wherever it stands in an archive; `layers` are the digests of its layers' data.
-Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
-                    std::span<const Digest> layers, std::span<const ClipRecord> clips);
+/// The last component of a name: "c" of "a/b/c".
+std::string leaf_of(const std::string& name);
 
 }  // namespace reprise

@@ -1,4 +1,4 @@
-// Rows into the archive, and out of it.
+// Rows that come into the archive, and rows that are taken out of it.
 #include <algorithm>
 #include <cassert>
 

@@ -1,0 +1,18 @@
+// Digests of what rows hold (docs/format.md).
+#pragma once
+
+#include <span>
+
+#include "store/archive_store.h"
+#include "store/digest.h"
+
+namespace reprise {
+
+ShortDigest row_digest(const SkeletonRecord& record);
+Digest proportions_identity(const ProportionsRecord& record);
+Digest space_digest(const Digest& structure, const Digest& base, const Bytes& data);
+/// What a take is, wherever it stands in an archive; `layers` are the digests of its layers' data.
+Digest take_content(const TakeRecord& record, const Digest& proportions, const Digest& space,
+                    std::span<const Digest> layers, std::span<const ClipRecord> clips);
+
+}  // namespace reprise
