@@ -27,7 +27,8 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
   if (size == 0) {
     throw Error(ErrorCode::damaged, "the archive is an empty file", {path.string()});
   }
-  fs::path journal = path;
+  // Beside the file itself, where SQLite has it: `path` may be a link.
+  fs::path journal = fs::weakly_canonical(path, error);
   journal += "-journal";
   if (fs::exists(journal, error) && fs::file_size(journal, error) > 0) {
     try {

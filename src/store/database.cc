@@ -48,6 +48,10 @@ std::string reason_of(int result, const std::string& message, int number) {
     case ErrorCode::locked:
       return "the archive is in use by another process";
     default:
+      if ((result & 0xff) == SQLITE_READONLY) {
+        return "a writer that ended left a change unfinished, which can be taken back only where "
+               "the archive may be written";
+      }
       if ((result & 0xff) != SQLITE_CANTOPEN) return message;
       return "the archive cannot be opened" +
              (number != 0 ? std::string(": ") + std::strerror(number) : std::string());
