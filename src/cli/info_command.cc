@@ -4,7 +4,6 @@
 
 #include "cli/json_output.h"
 #include "cli/text.h"
-#include "reprise/error.h"
 #include "reprise/query/body_joints.h"
 #include "reprise/query/key_poses.h"
 
@@ -174,16 +173,10 @@ std::vector<ClipInfo> clips_of(const Archive& archive, const TakeInfo& take) {
 
 void InfoCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
-  id_given_ = app.add_option("ID", id_, "A take or a clip; without it, the archive");
-  id_given_->type_name("");
+  add_text(app, "ID", id_, "A take or a clip; without it, the archive", "");
   add_input_file(app, "--joint-map", joint_map_,
                  "Lines \"BODY JOINT = JOINT\" that correct which joints are which");
   add_examples(app, {"reprise info lib.rpz", "reprise info lib.rpz walk_01"});
-}
-
-void InfoCommand::check() {
-  // An empty variable of a script is no question for the whole archive.
-  if (id_given_->count() > 0 && id_.empty()) throw Error(ErrorCode::usage, "ID is empty");
 }
 
 ExitCode InfoCommand::run(Console& console) {

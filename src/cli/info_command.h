@@ -12,12 +12,10 @@ class InfoCommand : public Command {
     return "Show everything known of the archive, a take or a clip";
   }
   void setup(CLI::App& app) override;
-  void check() override;
   ExitCode run(Console& console) override;
 
  private:
   std::filesystem::path archive_;
-  CLI::Option* id_given_ = nullptr;
   std::string id_;
   std::filesystem::path joint_map_;
 };

@@ -146,16 +146,14 @@ void ListCommand::setup(CLI::App& app) {
   app.add_flag("--clips", clips_, "List clips instead of takes");
   app.add_flag("--groups", groups_, "List behaviour groups instead of takes");
   app.add_flag("--skeletons", skeletons_, "List skeletons instead of takes");
-  app.add_option("--take", filter_.take, "Only of this take: its name or the end of it")
-      ->type_name("NAME");
-  app.add_option("--subject", filter_.subject, "Only of this subject")->type_name("NAME");
+  add_text(app, "--take", filter_.take, "Only of this take: its name or the end of it", "NAME");
+  add_text(app, "--subject", filter_.subject, "Only of this subject", "NAME");
   app.add_option_function<std::string>(
          "--kind", [this](const std::string& text) { filter_.kind = parse_kind(text); },
          "Only clips of this kind, or takes that have one: primary, repeated, unique")
       ->type_name("KIND");
-  app.add_option("--text", filter_.text,
-                 "Only takes with these words in their name, subject, description or tags")
-      ->type_name("WORDS");
+  add_text(app, "--text", filter_.text,
+           "Only takes with these words in their name, subject, description or tags", "WORDS");
   add_examples(app, {"reprise list lib.rpz", "reprise list lib.rpz --clips --take walk_01",
                      "reprise list lib.rpz --text \"slow walk\" --json"});
 }

@@ -11,6 +11,19 @@ constexpr double greatest_frame_rate = 1e5;
 
 }  // namespace
 
+CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
+                      const std::string& description, const std::string& type) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [name, &target](const std::string& text) {
+            if (text.empty()) refuse_value(name, text, "a text");
+            target = text;
+          },
+          description)
+      ->type_name(type);
+}
+
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::filesystem::path& target,
                       const std::string& description, const std::string& type) {
   return app

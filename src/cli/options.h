@@ -41,6 +41,10 @@ CLI::Option* add_whole_number(CLI::App& app, const std::string& name, Target& ta
       ->type_name("N");
 }
 
+/// A name or words. They must not be empty: an empty variable of a script is no wish for all.
+CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
+                      const std::string& description, const std::string& type);
+
 /// A path that must not be empty.
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::filesystem::path& target,
                       const std::string& description, const std::string& type = "FILE");

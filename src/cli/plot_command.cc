@@ -68,11 +68,10 @@ Json document_of(const std::string& take, const std::string& file,
 
 void PlotCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
-  app.add_option("--summary", summary_, "The take or clip whose key poses are drawn in a row")
-      ->type_name("ID");
-  app.add_option("--self-distance", take_,
-                 "The take whose postures are compared with one another: its name or the end of it")
-      ->type_name("TAKE");
+  add_text(app, "--summary", summary_, "The take or clip whose key poses are drawn in a row", "ID");
+  add_text(app, "--self-distance", take_,
+           "The take whose postures are compared with one another: its name or the end of it",
+           "TAKE");
   add_path(app, "-o,--output", file_, "The PNG file to write; - is stdout")->required();
   add_input_file(
       app, "--joint-map", joint_map_,

@@ -54,8 +54,7 @@ Json document_of(const std::vector<RecurringMotion>& groups) {
 
 void RepeatsCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
-  app.add_option("ID", id_, "Only the motions of this take, or the repeats of this clip")
-      ->type_name("");
+  add_text(app, "ID", id_, "Only the motions of this take, or the repeats of this clip", "");
   add_number(app, "--from", from_, 0, most_seconds,
              "Only the repeats of the part of ID that begins here, in seconds");
   add_number(app, "--to", to_, 0, most_seconds, "and ends here");

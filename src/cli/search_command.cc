@@ -51,7 +51,7 @@ Json document_of(const std::vector<SearchResult>& results) {
 void SearchCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
   add_path(app, "--like", like_, "The example: a BVH or AMC file, or - for a BVH on stdin");
-  app.add_option("--id", id_, "The example: a take or a clip of the archive")->type_name("ID");
+  add_text(app, "--id", id_, "The example: a take or a clip of the archive", "ID");
   add_number(app, "--from", options_.from, 0, longest_time,
              "Only a part of the example: from this second on");
   add_number(app, "--to", options_.to, 0, longest_time, "and up to this one");

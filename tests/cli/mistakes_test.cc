@@ -179,7 +179,9 @@ TEST_F(MistakesTest, AWrongFileForAnArgumentIsNamedBeforeAnythingIsStored) {
   refused({"ingest", "none/lib.rpz", "one"}, 1, "No such file");
   refused({"ingest", "one", "one"}, 1, "directory");
   refused({"ingest", "one/s01/s01_01.bvh", "one"}, 4, "not a Reprise archive");
-  refused({"info", "lib.rpz", ""}, 2, "ID is empty");
+  refused({"info", "lib.rpz", ""}, 2, "ID takes a text");
+  refused({"repeats", "lib.rpz", ""}, 2, "ID takes a text");
+  refused({"list", "lib.rpz", "--take", ""}, 2, "--take takes a text");
   EXPECT_FALSE(fs::exists(folder() / "lib.rpz"));
 }
 
