@@ -113,6 +113,11 @@ ExitCode SearchCommand::run(Console& console) {
   if (!search->cache_problem().empty()) console.message(printable(search->cache_problem()));
   const std::vector<SearchResult> results =
       selection ? search->like(selection->take, options_) : search->like(*example, options_);
+  if (results.empty()) {
+    console.message(
+        "no take is like the example, or none has a body that could be compared with it; reprise "
+        "info shows which joints were taken for a body's, --joint-map corrects it");
+  }
   console.result(results_table(results, console.bold_results()));
   console.document(document_of(results));
   return exit_done;

@@ -22,6 +22,7 @@ std::string stats_text(const ArchiveStats& stats, bool bold) {
   counts.add({"length", format_clock(stats.seconds)});
   counts.add({"subjects", std::to_string(stats.subjects)});
   counts.add({"skeletons", std::to_string(stats.skeletons)});
+  counts.add({"behaviour groups", std::to_string(stats.groups)});
   counts.add({"primary clips", std::to_string(stats.primary_clips)});
   counts.add({"repeated clips", std::to_string(stats.repeated_clips)});
   counts.add({"unique clips", std::to_string(stats.unique_clips)});
@@ -36,6 +37,7 @@ std::string stats_text(const ArchiveStats& stats, bool bold) {
 
   Table parts({{"SPENT ON", left}, {"BYTES", right}, {"SHARE", right}});
   for (const auto& [name, bytes] : stats.bytes) {
+    if (bytes == 0) continue;
     parts.add({name, format_size(bytes), share(bytes, stats.archive_bytes)});
   }
 

@@ -27,7 +27,6 @@ struct MotionSearch::Impl {
 
   /// Writes the cache, unless it is as the archive is already.
   void keep(const std::filesystem::path& archive, const std::filesystem::path& cache);
-  PlanGroup& group_of(const PostureTrack& track);
   std::vector<bool> accepted(const PlanGroup& group, const Example& example,
                              const SearchOptions& options) const;
   std::vector<Match> matches_of(PlanGroup& group, const Example& example,
@@ -44,15 +43,6 @@ void MotionSearch::Impl::keep(const std::filesystem::path& archive,
   } catch (const Error& error) {
     cache_problem = error.what();
   }
-}
-
-PlanGroup& MotionSearch::Impl::group_of(const PostureTrack& track) {
-  const auto group = groups.find(track.plan.id);
-  if (group == groups.end()) {
-    throw Error(ErrorCode::not_found, "no take has a body that the example's can be compared with",
-                {}, "say which joints are which with --joint-map");
-  }
-  return group->second;
 }
 
 std::vector<bool> MotionSearch::Impl::accepted(const PlanGroup& group, const Example& example,
@@ -85,7 +75,9 @@ std::vector<Match> MotionSearch::Impl::matches_of(PlanGroup& group, const Exampl
 
 std::vector<SearchResult> MotionSearch::Impl::search(const Example& example,
                                                      const SearchOptions& options) {
-  PlanGroup& group = group_of(*example.track);
+  const auto known = groups.find(example.track->plan.id);
+  if (known == groups.end()) return {};
+  PlanGroup& group = known->second;
   const std::vector<bool> accept = accepted(group, example, options);
   std::vector<Match> matches =
       matches_of(group, example, accept, std::max(least_compared, options.top));

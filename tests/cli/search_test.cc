@@ -68,6 +68,18 @@ TEST_F(SearchTest, ACacheThatCannotBeWrittenIsNoHindrance) {
   EXPECT_EQ(files_below(folder()), before);
 }
 
+TEST_F(SearchTest, NothingToCompareWithIsAnAnswer) {
+  write_file(folder() / "box.bvh",
+             "HIERARCHY\nROOT Box\n{\n  OFFSET 0 0 0\n  CHANNELS 6 Xposition Yposition Zposition "
+             "Zrotation Xrotation Yrotation\n  End Site\n  {\n    OFFSET 0 10 0\n  }\n}\nMOTION\n"
+             "Frames: 2\nFrame Time: 0.01\n0 0 0 0 0 0\n1 0 0 0 0 0\n");
+  const std::vector<std::string> by_file = {"search", "lib.rpz", "--like", "box.bvh"};
+  EXPECT_EQ(document(by_file).at("results").size(), 0u);
+  EXPECT_NE(reprise(by_file).err.find("--joint-map"), std::string::npos);
+  output({"ingest", "lib.rpz", "box.bvh"});
+  EXPECT_EQ(document({"search", "lib.rpz", "--id", "box"}).at("results").size(), 0u);
+}
+
 TEST_F(SearchTest, ErrorsHaveTheirCodes) {
   const std::string take = take_names()[0];
   const std::string file = "takes/" + take + ".bvh";

@@ -65,8 +65,8 @@ class MotionSearch {
 
   /// Takes like a take that need not be in the archive, best first. A whole example is compared
   /// with whole takes, and with parts of takes more than twice as long; a part of one with all
-  /// parts of that length, at half to twice the speed. Throws Error (usage) where from and to are
-  /// not in the example; not_found where the archive has no body that could be compared.
+  /// parts of that length, at half to twice the speed. Nothing, where no take has a body that could
+  /// be compared. Throws Error (usage) where from and to are not in the example.
   std::vector<SearchResult> like(const Take& example, const SearchOptions& options = {});
 
   /// The same for a take of the archive. It is not found itself, but for other parts of it.
