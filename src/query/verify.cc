@@ -1,5 +1,7 @@
 // Reads and decodes everything, and holds it against its sources where they are at hand.
 #include <map>
+#include <string>
+#include <vector>
 
 #include "query/archive_impl.h"
 #include "query/take_decoder.h"
@@ -11,10 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Motion files below a folder by the names that an ingest of it gives takes, and by trailing parts
-/// of them.
+/// Calls `use` with a name, and with what is left of it after each of its slashes.
+template <class Use>
+void for_each_end(const std::string& name, const Use& use) {
+  for (std::size_t at = 0; at != std::string::npos;) {
+    use(name.substr(at));
+    const std::size_t slash = name.find('/', at);
+    at = slash == std::string::npos ? slash : slash + 1;
+  }
+}
+
+/// Motion files below a folder by the names that an ingest of it gives takes, and by the ends of
+/// those that no other file has: an ingest of the files themselves gives takes no folder.
 std::map<std::string, fs::path> sources_under(const fs::path& folder) {
   std::map<std::string, fs::path> sources;
+  std::map<std::string, std::vector<fs::path>> by_end;
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     throw Error(ErrorCode::failed,
@@ -26,25 +39,30 @@ std::map<std::string, fs::path> sources_under(const fs::path& folder) {
     std::error_code ignored;
     if (!entry->is_regular_file(ignored) || !is_motion_file(entry->path())) continue;
     fs::path relative = entry->path().lexically_relative(folder);
-    sources.emplace(relative.generic_string(), entry->path());
-    sources.emplace(relative.replace_extension().generic_string(), entry->path());
+    for (const std::string& name :
+         {relative.generic_string(), relative.replace_extension().generic_string()}) {
+      sources.emplace(name, entry->path());
+      for_each_end(name, [&](const std::string& end) { by_end[end].push_back(entry->path()); });
+    }
   }
   if (error) {
     throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
                 {folder.string()});
   }
+  for (const auto& [end, files] : by_end) {
+    if (files.size() == 1) sources.emplace(end, files.front());
+  }
   return sources;
 }
 
 const fs::path* source_of(const std::map<std::string, fs::path>& sources, const std::string& take) {
+  const fs::path* source = nullptr;
   // A prefix of the ingest stands before the name under the folder.
-  for (std::size_t at = 0; at != std::string::npos;) {
-    const auto found = sources.find(take.substr(at));
-    if (found != sources.end()) return &found->second;
-    const std::size_t slash = take.find('/', at);
-    at = slash == std::string::npos ? slash : slash + 1;
-  }
-  return nullptr;
+  for_each_end(take, [&](const std::string& end) {
+    const auto found = sources.find(end);
+    if (source == nullptr && found != sources.end()) source = &found->second;
+  });
+  return source;
 }
 
 /// What a layer promises and does not keep; empty where it keeps it.

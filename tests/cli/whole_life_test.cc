@@ -65,6 +65,21 @@ TEST_F(CommandTest, TakeOutsideItsFidelityIsOne) {
   EXPECT_EQ(report["damaged"][0].at("id"), name);
 }
 
+TEST_F(CommandTest, SourcesAreFoundByTheEndsOfNames) {
+  output({"synth", "takes", "--takes", "2", "--seconds", "2", "--subjects", "2"});
+  output({"ingest", "files.rpz", "takes/s01/s01_01.bvh", "takes/s02/s02_01.bvh"});
+  EXPECT_EQ(take_names("files.rpz"), (std::vector<std::string>{"s01_01", "s02_01"}));
+  output({"verify", "files.rpz", "--against", "takes"});
+  output({"ingest", "prefixed.rpz", "takes", "--prefix", "day/1"});
+  output({"verify", "prefixed.rpz", "--against", "takes"});
+  // The end of two names is neither's.
+  fs::create_directories(folder() / "takes/other");
+  fs::copy_file(folder() / "takes/s01/s01_01.bvh", folder() / "takes/other/s01_01.bvh");
+  const nlohmann::json report = document({"verify", "files.rpz", "--against", "takes"}, 1);
+  ASSERT_EQ(report.at("damaged").size(), 1U);
+  EXPECT_EQ(report.at("damaged")[0].at("id"), "s01_01");
+}
+
 TEST_F(CommandTest, ResultsAndMessagesDoNotMix) {
   make_library();
   const std::string name = take_names().front();
