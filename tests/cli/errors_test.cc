@@ -19,6 +19,12 @@ class ErrorsTest : public CommandTest {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out, "");
   }
+  /// Runs the command where no file may have more than `bytes`, in units of 512.
+  Outcome limited(std::size_t bytes, const std::string& command) const {
+    const std::string line =
+        "ulimit -f " + std::to_string(bytes / 512) + "; " REPRISE_COMMAND " " + command;
+    return RunningCommand(folder(), {"sh", "-c", line}).wait();
+  }
 };
 
 TEST_F(ErrorsTest, WrongUsageIsTwoAndTouchesNothing) {
@@ -197,18 +203,12 @@ TEST_F(ErrorsTest, FullStdoutIsAnError) {
   }
 }
 
-TEST_F(ErrorsTest, AFileThatMayNotGrowIsNineAndTheArchiveStays) {
+TEST_F(ErrorsTest, AnArchiveThatMayNotGrowIsNineAndStays) {
   make_library();
   const std::string before = read_file(folder() / "lib.rpz");
-  // In units of 512 bytes: the archive may grow by very little.
-  const auto limited = [&](const std::string& archive, std::size_t bytes) {
-    const std::string line = "ulimit -f " + std::to_string(bytes / 512) +
-                             "; " REPRISE_COMMAND " ingest " + archive + " takes --prefix more";
-    return RunningCommand(folder(), {"sh", "-c", line}).wait();
-  };
-  for (const auto& [archive, bytes] :
-       {std::pair<std::string, std::size_t>{"lib.rpz", before.size()}, {"new.rpz", 2048}}) {
-    const Outcome outcome = limited(archive, bytes);
+  const std::map<std::string, std::size_t> limits = {{"lib.rpz", before.size()}, {"new.rpz", 2048}};
+  for (const auto& [archive, bytes] : limits) {
+    const Outcome outcome = limited(bytes, "ingest " + archive + " takes --prefix more");
     EXPECT_EQ(outcome.exit_code, 9) << outcome.err;
     EXPECT_NE(outcome.err.find("limit on the size of files"), std::string::npos) << outcome.err;
   }
@@ -216,6 +216,19 @@ TEST_F(ErrorsTest, AFileThatMayNotGrowIsNineAndTheArchiveStays) {
   EXPECT_FALSE(fs::exists(folder() / "new.rpz"));
   output({"verify", "lib.rpz"});
   EXPECT_EQ(document({"ingest", "lib.rpz", "takes", "--prefix", "more"}).at("added").size(), 4U);
+}
+
+TEST_F(ErrorsTest, AFileThatMayNotGrowIsNineAndGone) {
+  make_library();
+  const auto before = files_below(folder());
+  const std::string take = take_names().front();
+  const std::vector<std::string> commands = {
+      "extract lib.rpz " + take + " -o big.bvh", "extract lib.rpz --all -d .",
+      "plot lib.rpz --summary " + take + " -o big.png", "synth ."};
+  for (const std::string& command : commands) {
+    EXPECT_EQ(limited(512, command).exit_code, 9) << command;
+    EXPECT_EQ(files_below(folder()), before) << command;
+  }
 }
 
 TEST_F(ErrorsTest, HelpAndVersionAreResults) {
