@@ -21,6 +21,7 @@ RepeatConstants repeat_constants(const ClipPlanConstants& plan) {
   constants.explained_cover = plan.explained_cover;
   constants.explained_times = 1;
   constants.least_near_per_s = 0;  // windows are few here
+  constants.next_near_s = 0;
   constants.across_subjects = plan.across_subjects;
   return constants;
 }

@@ -64,8 +64,10 @@ std::vector<SelfDistance::Clip> clips_of(const PostureLibrary& library,
 SelfDistance self_distance(const Archive& archive, const TakeInfo& info) {
   const Take take = archive.extract(info, FidelityTier::preview);
   RepeatConstants constants;
-  constants.explained_cover = 2;   // clips are chosen from all groups
+  constants.explained_cover = 2;  // clips are chosen from all groups
+  constants.short_share = 1;
   constants.least_near_per_s = 0;  // near pairs are minima of the plot, not windows
+  constants.next_near_s = 0;
   constants.rate = std::min(constants.rate, most_samples / std::max(take.seconds(), 1.0));
   const LayoutChoices layout = choose_layout(*take.skeleton, layout_evidence(take));
   const PostureLibrary library(

@@ -74,20 +74,46 @@ void part_sides(long& begin, long& end, long& other_begin, long& other_end) {
   other_end = std::min(other_end, other_begin + lag);
 }
 
+/// Whether a motion may go on from one pair to the other: both forwards, none more than
+/// RepeatConstants::steepest times as fast.
+bool goes_on(const NearPair& from, const NearPair& to, long most_samples) {
+  const long x = to.sample - from.sample, y = to.other_sample - from.other_sample;
+  return x > 0 && y > 0 && x <= RepeatConstants::steepest * y &&
+         y <= RepeatConstants::steepest * x && std::min(x, y) <= most_samples;
+}
+
+/// Those pairs of a plot that another goes on from, or to; all where `most_samples` is 0.
+std::vector<std::size_t> without_lone(std::span<const NearPair> near_pairs,
+                                      const std::vector<std::size_t>& pairs, long most_samples) {
+  if (most_samples == 0) return pairs;
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : pairs) {
+    const NearPair& pair = near_pairs[i];
+    const bool lone = std::ranges::none_of(pairs, [&](std::size_t other) {
+      return goes_on(pair, near_pairs[other], most_samples) ||
+             goes_on(near_pairs[other], pair, most_samples);
+    });
+    if (!lone) kept.push_back(i);
+  }
+  return kept;
+}
+
 /// Paths in the plot of two takes, each with the pair that it was traced from. `pairs` are indices.
 std::vector<std::pair<std::size_t, TracedPath>> trace_plot(const PostureLibrary& library,
                                                            std::span<const NearPair> near_pairs,
                                                            const std::vector<std::size_t>& pairs,
                                                            const RepeatConstants& constants) {
+  PathTracer tracer(constants);
   const long least_path = std::lround(constants.least_path_s * constants.rate);
+  const long next_near = std::lround(constants.next_near_s * constants.rate);
   std::vector<std::pair<std::size_t, TracedPath>> traced;
-  for (const std::size_t i : pairs) {
+  for (const std::size_t i : without_lone(near_pairs, pairs, next_near)) {
     const NearPair& pair = near_pairs[i];
     const auto on_it = [&](const auto& known) { return lies_on(known.second.path, pair); };
     if (std::ranges::any_of(traced, on_it)) continue;
-    SimilarPath path = trace_path(
-        library.side(pair.take, pair.other_take), library.side(pair.other_take, pair.take),
-        {pair.sample, pair.other_sample}, pair.take == pair.other_take, constants);
+    SimilarPath path = tracer.trace(library.side(pair.take, pair.other_take),
+                                    library.side(pair.other_take, pair.take),
+                                    {pair.sample, pair.other_sample}, pair.take == pair.other_take);
     if (path.pixels.empty()) continue;
     traced.push_back({i, {pair.take, pair.other_take, std::move(path)}});
   }

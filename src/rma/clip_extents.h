@@ -29,7 +29,8 @@ struct TracedPath {
   SimilarPath path;
 };
 
-/// A path through every near pair that none has come through yet, without those that are too short.
+/// A path through every near pair that none has come through yet, without those that are too short,
+/// and without pairs that stand alone (RepeatConstants::next_near_s).
 /// `jobs` threads, 0: one a core; here and below, results do not depend on it.
 std::vector<TracedPath> trace_paths(const PostureLibrary& library,
                                     std::span<const NearPair> near_pairs,

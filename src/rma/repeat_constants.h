@@ -34,6 +34,16 @@ struct RepeatConstants {
   /// A member's greatest mean joint distance to its group's reference (mm), where similar_mm holds
   /// for all of the reference; less in proportion where it is narrowed. Measured.
   float member_mm = 60;
+  /// For clips shorter than this (s) it is less, down to this part of it for the shortest path:
+  /// short motions are alike by accident. Measured.
+  double whole_clip_s = 1.5;
+  float short_share = 0.75F;
+  /// Where somebody asks for one clip, member_mm may be as if similar_mm were narrowed less, by
+  /// this factor: whoever asks sees distances, and misses what is left out. Measured.
+  float asked_share = 1.2F;
+  /// Paths are traced only through places that others within this time (s) go on from, or to; 0:
+  /// through all. Single places that are near lead to paths that are too short. Measured.
+  double next_near_s = 0.4;
   /// A stretch is held against a clip where this many places a second of the clip are near to
   /// places in it (of a clip's windows, five begin a second): most stretches that a place or two
   /// lead to repeat nothing, and the larger a library is, the more there are. Measured.

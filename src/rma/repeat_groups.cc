@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -127,22 +128,34 @@ bool moves(const PostureView& clip, const RepeatConstants& constants) {
          sum / static_cast<double>(steps) * constants.rate >= constants.least_speed_mm_s;
 }
 
-/// The mean joint distance (mm) to the clip up to which something in a take repeats it: less where
-/// the clip's postures have to be nearer to be similar.
-float most_distance(const PostureLibrary& library, const Occurrence& clip, std::size_t take,
-                    const RepeatConstants& constants) {
+/// RepeatConstants::member_mm, less where the clip's postures have to be nearer to postures of a
+/// take to be similar.
+float narrowed_member_mm(const PostureLibrary& library, const Occurrence& clip, std::size_t take,
+                         const RepeatConstants& constants) {
   const auto similar = library.similar(clip.take, take).begin();
   const float sum = std::accumulate(similar + clip.begin, similar + clip.end, 0.0F);
   const float mean = sum / static_cast<float>(clip.end - clip.begin);
   return constants.member_mm * mean / constants.similar_mm;
 }
 
+/// The part of it that counts for a clip of this many samples.
+float length_share(long samples, const RepeatConstants& constants) {
+  const double shortest = constants.least_path_s,
+               seconds = static_cast<double>(samples) / constants.rate;
+  const double part =
+      std::clamp((seconds - shortest) / (constants.whole_clip_s - shortest), 0.0, 1.0);
+  return constants.short_share + (1 - constants.short_share) * static_cast<float>(part);
+}
+
+/// Of a take: the mean joint distance (mm) to a clip up to which something in it repeats the clip.
+using MemberLimit = std::function<float(std::size_t take)>;
+
 /// What is like the clip in a stretch and does not overlap it.
 std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurrence& clip,
                                    const PostureView& view, const Stretch& stretch,
-                                   const RepeatConstants& constants) {
+                                   const MemberLimit& most_mm, const RepeatConstants& constants) {
   const auto found = align_clip(view, library.view(stretch.take, stretch.begin, stretch.end),
-                                most_distance(library, clip, stretch.take, constants));
+                                most_mm(stretch.take));
   const long least = std::lround(constants.least_clip_s * constants.rate);
   std::vector<Occurrence> members;
   for (const AlignedClip& member : found) {
@@ -158,13 +171,13 @@ std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurren
 
 /// Adds what is like the clip in any of the stretches, in their order.
 void add_members(const PostureLibrary& library, const Occurrence& clip, const PostureView& view,
-                 const std::vector<Stretch>& stretches, const RepeatConstants& constants,
-                 unsigned jobs, RepeatGroup& group) {
+                 const std::vector<Stretch>& stretches, const MemberLimit& most_mm,
+                 const RepeatConstants& constants, unsigned jobs, RepeatGroup& group) {
   // A thread costs as much as some alignments.
   constexpr std::size_t least_stretches = 16;
   std::vector<std::vector<Occurrence>> members(stretches.size());
   parallel_for(stretches.size(), stretches.size() < least_stretches ? 1 : jobs, [&](std::size_t s) {
-    members[s] = members_in(library, clip, view, stretches[s], constants);
+    members[s] = members_in(library, clip, view, stretches[s], most_mm, constants);
   });
   for (auto& list : members) std::ranges::move(list, std::back_inserter(group.occurrences));
 }
@@ -202,7 +215,11 @@ RepeatGroup GroupFinder::members_of(const Occurrence& clip) const {
   RepeatGroup group{{clip}};
   const PostureView view = library_.view(clip.take, clip.begin, clip.end);
   if (!moves(view, constants_)) return group;
-  add_members(library_, clip, view, stretches_near(clip), constants_, jobs_, group);
+  const float share = length_share(clip.end - clip.begin, constants_);
+  const MemberLimit most_mm = [&](std::size_t take) {
+    return share * narrowed_member_mm(library_, clip, take, constants_);
+  };
+  add_members(library_, clip, view, stretches_near(clip), most_mm, constants_, jobs_, group);
   return group;
 }
 
@@ -286,8 +303,15 @@ RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& cli
   for (std::size_t take = 0; take < library.takes(); ++take) {
     takes.push_back({take, 0, library.postures[take].rows()});
   }
-  add_members(library, clip, library.view(clip.take, clip.begin, clip.end), takes, constants, jobs,
-              group);
+  const MemberLimit most_mm = [&](std::size_t take) {
+    const float widest = library.of_one_subject(clip.take, take)
+                             ? constants.member_mm
+                             : constants.across_subjects * constants.member_mm;
+    return std::min(widest,
+                    constants.asked_share * narrowed_member_mm(library, clip, take, constants));
+  };
+  add_members(library, clip, library.view(clip.take, clip.begin, clip.end), takes, most_mm,
+              constants, jobs, group);
   return group;
 }
 

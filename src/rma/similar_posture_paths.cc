@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 
 namespace reprise {
 namespace {
@@ -20,90 +21,114 @@ static_assert(RepeatConstants::steepest == 3);
 
 constexpr float never = -std::numeric_limits<float>::infinity();
 
-/// One row of the explored part of a plot.
-struct Row {
-  long first = 0;
-  std::vector<float> score;
-  std::vector<std::int8_t> step;  ///< index into `steps`, by which the pixel was reached
+/// Half the Manhattan length of a step.
+constexpr float length_of(const Step& step) { return 0.5F * static_cast<float>(step.x + step.y); }
 
-  long end() const { return first + static_cast<long>(score.size()); }
-  float at(long column) const {
-    return column < first || column >= end() ? never
-                                             : score[static_cast<std::size_t>(column - first)];
-  }
-};
+}  // namespace
 
-/// Explores from one pixel towards one corner of the plot.
-class Explorer {
+/// Explores from one pixel towards one corner of a plot; the next time in the same memory.
+class PathTracer::Explorer {
  public:
-  Explorer(const PlotSide& x, const PlotSide& y, PlotPixel start, int direction, long least_lag,
-           const RepeatConstants& constants)
-      : x_(x),
-        y_(y),
-        start_(start),
-        direction_(direction),
-        least_lag_(least_lag),
-        // A bridge this long at twice the distance that counts as similar uses up what is allowed.
-        allowed_drop_(static_cast<float>(constants.bridge_s * constants.rate)) {}
+  explicit Explorer(const RepeatConstants& constants)
+      // A bridge this long at twice the distance that counts as similar uses up what is allowed.
+      : allowed_drop_(static_cast<float>(constants.bridge_s * constants.rate)) {}
 
   /// Pixels after the start, in the order of exploration.
-  std::vector<PlotPixel> run() {
-    rows_.push_back({0, {0.0F}, {std::int8_t{-1}}});
-    const long most_rows = direction_ > 0 ? x_.postures.rows() - start_.x : start_.x + 1;
+  std::vector<PlotPixel> run(const PlotSide& x, const PlotSide& y, PlotPixel start, int direction,
+                             long least_lag) {
+    x_ = &x;
+    y_ = &y;
+    start_ = start;
+    direction_ = direction;
+    least_lag_ = least_lag;
+    rows_.assign(1, {0, 1, 0});
+    scores_.assign(1, 0.0F);
+    steps_.assign(1, std::int8_t{-1});
+    best_ = 0;
+    best_row_ = best_column_ = 0;
+    const long most_rows = direction > 0 ? x.postures.rows() - start.x : start.x + 1;
     while (static_cast<long>(rows_.size()) < most_rows && explore_row()) {
     }
     return walk_back();
   }
 
  private:
+  /// One row of the explored part of a plot: its columns, and where their scores begin.
+  struct Row {
+    long first, end;
+    std::size_t offset;
+  };
+
   PlotPixel pixel(long row, long column) const {
     return {start_.x + direction_ * row, start_.y + direction_ * column};
   }
 
   /// 1 where the postures are the same, 0 from where on they are dissimilar, then negative.
   float likeness(const PlotPixel& at) const {
-    const float distance = (x_.postures.row(at.x) - y_.postures.row(at.y)).norm();
-    return 1 - distance / std::sqrt(x_.similar_mm[static_cast<std::size_t>(at.x)] *
-                                    y_.similar_mm[static_cast<std::size_t>(at.y)]);
+    const float distance = (x_->postures.row(at.x) - y_->postures.row(at.y)).norm();
+    return 1 - distance / std::sqrt(x_->similar_mm[static_cast<std::size_t>(at.x)] *
+                                    y_->similar_mm[static_cast<std::size_t>(at.y)]);
+  }
+
+  float score_at(const Row& row, long column) const {
+    return column < row.first || column >= row.end
+               ? never
+               : scores_[row.offset + static_cast<std::size_t>(column - row.first)];
   }
 
   /// False once nothing can be reached any more.
   bool explore_row() {
     const long row = static_cast<long>(rows_.size());
-    const long most_columns = direction_ > 0 ? y_.postures.rows() - start_.y : start_.y + 1;
+    const long most_columns = direction_ > 0 ? y_->postures.rows() - start_.y : start_.y + 1;
     long first = std::numeric_limits<long>::max(), end = 0;
     for (const Step& step : steps) {
       if (step.x > row) continue;
       const Row& from = rows_[static_cast<std::size_t>(row - step.x)];
-      if (from.score.empty()) continue;
+      if (from.first >= from.end) continue;
       first = std::min(first, from.first + step.y);
-      end = std::max(end, from.end() + step.y);
+      end = std::max(end, from.end + step.y);
     }
     end = std::min(end, most_columns);
     if (first >= end) return false;
-    Row next{first, {}, {}};
-    for (long column = first; column < end; ++column) score_pixel(next, row, column);
-    trim(next);
-    rows_.push_back(std::move(next));
+    Row next{first, first, scores_.size()};
+    for (long column = first; column < end; ++column) {
+      const bool kept = score_pixel(row, column);
+      // Rows begin and end with what can be reached.
+      if (kept) next.end = column + 1;
+      if (!kept && next.first == column) {
+        ++next.first;
+        ++next.end;
+        scores_.pop_back();
+        steps_.pop_back();
+      }
+    }
+    scores_.resize(next.offset + static_cast<std::size_t>(next.end - next.first));
+    steps_.resize(scores_.size());
+    rows_.push_back(next);
     return true;
   }
 
-  void score_pixel(Row& next, long row, long column) {
+  /// Adds a pixel to the row; false: it cannot be reached.
+  bool score_pixel(long row, long column) {
+    std::array<float, steps.size()> from;
+    float most = never;  // where the postures are the same
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      from[s] = steps[s].x > row ? never
+                                 : score_at(rows_[static_cast<std::size_t>(row - steps[s].x)],
+                                            column - steps[s].y);
+      most = std::max(most, from[s] + length_of(steps[s]));
+    }
     const PlotPixel at = pixel(row, column);
+    const bool allowed = least_lag_ == 0 || std::labs(at.x - at.y) >= least_lag_;
     float best = never;
     std::int8_t by = -1;
-    if (least_lag_ == 0 || std::labs(at.x - at.y) >= least_lag_) {
+    if (allowed && most >= best_ - allowed_drop_) {
       const float gain = likeness(at);
       for (std::size_t s = 0; s < steps.size(); ++s) {
-        if (steps[s].x > row) continue;
-        const float length = 0.5F * static_cast<float>(steps[s].x + steps[s].y);
-        const float score =
-            rows_[static_cast<std::size_t>(row - steps[s].x)].at(column - steps[s].y) +
-            length * gain;
-        if (score > best) {
-          best = score;
-          by = static_cast<std::int8_t>(s);
-        }
+        const float score = from[s] + length_of(steps[s]) * gain;
+        if (score <= best) continue;
+        best = score;
+        by = static_cast<std::int8_t>(s);
       }
     }
     if (best > best_) {
@@ -111,19 +136,10 @@ class Explorer {
       best_row_ = row;
       best_column_ = column;
     }
-    next.score.push_back(best >= best_ - allowed_drop_ ? best : never);
-    next.step.push_back(by);
-  }
-
-  static void trim(Row& row) {
-    std::size_t first = 0, end = row.score.size();
-    while (first < end && row.score[first] == never) ++first;
-    while (end > first && row.score[end - 1] == never) --end;
-    row.first += static_cast<long>(first);
-    row.score = {row.score.begin() + static_cast<std::ptrdiff_t>(first),
-                 row.score.begin() + static_cast<std::ptrdiff_t>(end)};
-    row.step = {row.step.begin() + static_cast<std::ptrdiff_t>(first),
-                row.step.begin() + static_cast<std::ptrdiff_t>(end)};
+    const bool kept = best >= best_ - allowed_drop_;
+    scores_.push_back(kept ? best : never);
+    steps_.push_back(by);
+    return kept;
   }
 
   std::vector<PlotPixel> walk_back() const {
@@ -132,43 +148,46 @@ class Explorer {
     while (row > 0) {
       pixels.push_back(pixel(row, column));
       const Row& at = rows_[static_cast<std::size_t>(row)];
-      const Step& step =
-          steps[static_cast<std::size_t>(at.step[static_cast<std::size_t>(column - at.first)])];
-      row -= step.x;
-      column -= step.y;
+      const std::int8_t by = steps_[at.offset + static_cast<std::size_t>(column - at.first)];
+      row -= steps[static_cast<std::size_t>(by)].x;
+      column -= steps[static_cast<std::size_t>(by)].y;
     }
     std::reverse(pixels.begin(), pixels.end());
     return pixels;
   }
 
-  const PlotSide& x_;
-  const PlotSide& y_;
-  PlotPixel start_;
-  int direction_;
-  long least_lag_;
   float allowed_drop_;
+  const PlotSide* x_ = nullptr;
+  const PlotSide* y_ = nullptr;
+  PlotPixel start_;
+  int direction_ = 1;
+  long least_lag_ = 0;
   std::vector<Row> rows_;
+  std::vector<float> scores_;       // of all rows
+  std::vector<std::int8_t> steps_;  // index into `steps`, by which each pixel was reached
   float best_ = 0;
   long best_row_ = 0, best_column_ = 0;
 };
-
-}  // namespace
 
 long SimilarPath::manhattan_length() const {
   if (pixels.empty()) return 0;
   return pixels.back().x - pixels.front().x + pixels.back().y - pixels.front().y;
 }
 
-SimilarPath trace_path(const PlotSide& x, const PlotSide& y, PlotPixel start, bool same_take,
-                       const RepeatConstants& constants) {
-  const long least_lag =
-      same_take ? std::lround(std::ceil(constants.least_lag_s * constants.rate)) : 0;
+PathTracer::PathTracer(const RepeatConstants& constants)
+    : least_lag_(std::lround(std::ceil(constants.least_lag_s * constants.rate))),
+      explorer_(std::make_unique<Explorer>(constants)) {}
+PathTracer::~PathTracer() = default;
+
+SimilarPath PathTracer::trace(const PlotSide& x, const PlotSide& y, PlotPixel start,
+                              bool same_take) {
+  const long least_lag = same_take ? least_lag_ : 0;
   if (same_take && std::labs(start.x - start.y) < least_lag) return {};
   SimilarPath path;
-  path.pixels = Explorer(x, y, start, -1, least_lag, constants).run();
+  path.pixels = explorer_->run(x, y, start, -1, least_lag);
   std::reverse(path.pixels.begin(), path.pixels.end());
   path.pixels.push_back(start);
-  const auto after = Explorer(x, y, start, 1, least_lag, constants).run();
+  const auto after = explorer_->run(x, y, start, 1, least_lag);
   path.pixels.insert(path.pixels.end(), after.begin(), after.end());
   float sum = 0;
   for (const PlotPixel& pixel : path.pixels) {

@@ -1,6 +1,7 @@
 // Similar-posture paths of a self-distance plot (lin-2011 section 4.2.1).
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,11 +33,21 @@ struct PlotSide {
   std::span<const float> similar_mm;
 };
 
-/// The path of least cost through `start` towards both ends: it goes on as long as what is similar
-/// outweighs what is not, over a bridge of dissimilar pixels too. The plot is not computed but
-/// where the path may lie. With `same_take` the pixels near the diagonal are forbidden. Without
-/// pixels where `start` itself is forbidden.
-SimilarPath trace_path(const PlotSide& x, const PlotSide& y, PlotPixel start, bool same_take,
-                       const RepeatConstants& constants);
+class PathTracer {
+ public:
+  explicit PathTracer(const RepeatConstants& constants);
+  ~PathTracer();
+
+  /// The path of least cost through `start` towards both ends: it goes on as long as what is
+  /// similar outweighs what is not, over a bridge of dissimilar pixels too. The plot is not
+  /// computed but where the path may lie. With `same_take` the pixels near the diagonal are
+  /// forbidden. Without pixels where `start` itself is forbidden.
+  SimilarPath trace(const PlotSide& x, const PlotSide& y, PlotPixel start, bool same_take);
+
+ private:
+  class Explorer;
+  long least_lag_;
+  std::unique_ptr<Explorer> explorer_;
+};
 
 }  // namespace reprise

@@ -216,6 +216,51 @@ TEST(PostureReach, OfTakesWithoutSamples) {
   EXPECT_TRUE(reaches[0].empty());
 }
 
+/// Every joint of a posture this much further (mm): as far as that from the posture on average.
+PostureMatrix moved(PostureMatrix motion, float mm) {
+  for (Eigen::Index c = 0; c < motion.cols(); c += 3) motion.col(c).array() += mm;
+  return motion;
+}
+
+TEST(RepeatGroups, ShortClipsHaveToBeNearer) {
+  const float apart = 0.5F * (1 + constants.short_share) * constants.member_mm;
+  const PostureLibrary library(
+      {made_up_take(1, 0, 4), moved(made_up_take(1, 0, 4), apart), made_up_take(2, 0, 4)},
+      constants);
+  const auto pairs = find_near_pairs(library, constants);
+  const auto groups_of = [&](long samples) {
+    const std::vector<Occurrence> clip{{0, 10, 10 + samples, 0}};
+    return find_groups_of(library, pairs, clip, constants).size();
+  };
+  EXPECT_EQ(groups_of(std::lround(constants.whole_clip_s * constants.rate)), 1u);
+  EXPECT_EQ(groups_of(std::lround(constants.least_path_s * constants.rate)), 0u);
+}
+
+TEST(RepeatsOfAClip, MayBeAsFarAsMembersWhereAllIsAlike) {
+  PostureLibrary library({made_up_take(1, 0, 4), moved(made_up_take(1, 0, 4), 40)}, constants);
+  const Occurrence clip{0, 10, 50, 0};
+  const auto found = [&](float similar_mm) {
+    for (auto& take : library.similar_mm) std::ranges::fill(take, similar_mm);
+    return find_repeats_of(library, clip, constants).occurrences.size() == 2;
+  };
+  const float just = 40 * constants.similar_mm / (constants.asked_share * constants.member_mm);
+  EXPECT_TRUE(found(1.05F * just));
+  EXPECT_FALSE(found(0.95F * just));
+}
+
+TEST(TracedPaths, GoThroughPairsThatOthersGoOnFrom) {
+  const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 4)}, constants);
+  const std::vector<NearPair> alone{{0, 20, 1, 20}}, back{{0, 20, 1, 20}, {0, 23, 1, 17}},
+      late{{0, 20, 1, 20}, {0, 40, 1, 40}}, on{{0, 20, 1, 20}, {0, 23, 1, 24}};
+  EXPECT_TRUE(trace_paths(library, alone, constants).empty());
+  EXPECT_TRUE(trace_paths(library, back, constants).empty());
+  EXPECT_TRUE(trace_paths(library, late, constants).empty());
+  EXPECT_FALSE(trace_paths(library, on, constants).empty());
+  RepeatConstants all = constants;
+  all.next_near_s = 0;
+  EXPECT_EQ(trace_paths(library, alone, all).size(), 1u);
+}
+
 TEST(RepeatGroups, OfNothing) {
   EXPECT_TRUE(
       find_repeat_groups(PostureLibrary({}, constants), {}, std::nullopt, constants).empty());

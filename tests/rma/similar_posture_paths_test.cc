@@ -17,7 +17,7 @@ TEST(SimilarPostureTrace, EndsWhereTheMotionsPart) {
        joined({made_up_take(4, 0, 2), made_up_take(1, 0, 4, 0.5), made_up_take(5, 0, 2)})},
       constants);
   const SimilarPath path =
-      trace_path(library.side(0, 1), library.side(1, 0), {60, 60}, false, constants);
+      PathTracer(constants).trace(library.side(0, 1), library.side(1, 0), {60, 60}, false);
   ASSERT_FALSE(path.pixels.empty());
   EXPECT_NEAR(static_cast<double>(path.pixels.front().x), 45, 3);
   EXPECT_NEAR(static_cast<double>(path.pixels.back().x), 74, 3);
@@ -30,7 +30,7 @@ TEST(SimilarPostureTrace, EndsWhereTheMotionsPart) {
 TEST(SimilarPostureTrace, RisesInBothByStepsThatAreNotTooSteep) {
   const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 6, 0.7)}, constants);
   const SimilarPath path =
-      trace_path(library.side(0, 1), library.side(1, 0), {30, 43}, false, constants);
+      PathTracer(constants).trace(library.side(0, 1), library.side(1, 0), {30, 43}, false);
   ASSERT_GT(path.pixels.size(), 10u);
   for (std::size_t i = 1; i < path.pixels.size(); ++i) {
     const long x = path.pixels[i].x - path.pixels[i - 1].x;
@@ -47,7 +47,8 @@ TEST(SimilarPostureTrace, CrossesAShortBridgeOnly) {
   };
   const auto end_with_gap = [&](double seconds) {
     const PostureLibrary library({made_up_take(1, 0, 4 + seconds), with_gap(seconds)}, constants);
-    return trace_path(library.side(0, 1), library.side(1, 0), {10, 10}, false, constants)
+    return PathTracer(constants)
+        .trace(library.side(0, 1), library.side(1, 0), {10, 10}, false)
         .pixels.back()
         .x;
   };
@@ -58,10 +59,11 @@ TEST(SimilarPostureTrace, CrossesAShortBridgeOnly) {
 TEST(SimilarPostureTrace, KeepsAwayFromTheDiagonal) {
   const PostureLibrary library({made_up_take(1, 0, 4)}, constants);
   const SimilarPath path =
-      trace_path(library.side(0, 0), library.side(0, 0), {10, 20}, true, constants);
+      PathTracer(constants).trace(library.side(0, 0), library.side(0, 0), {10, 20}, true);
   for (const PlotPixel& pixel : path.pixels) EXPECT_GE(pixel.y - pixel.x, 6);
-  EXPECT_TRUE(
-      trace_path(library.side(0, 0), library.side(0, 0), {10, 12}, true, constants).pixels.empty());
+  EXPECT_TRUE(PathTracer(constants)
+                  .trace(library.side(0, 0), library.side(0, 0), {10, 12}, true)
+                  .pixels.empty());
 }
 
 }  // namespace
