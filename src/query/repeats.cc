@@ -6,7 +6,7 @@
 
 #include "query/archive_impl.h"
 #include "query/near_windows.h"
-#include "query/posture_library.h"
+#include "query/skeleton_postures.h"
 #include "reprise/error.h"
 #include "store/digest.h"
 
@@ -171,7 +171,7 @@ std::vector<RecurringMotion> Archive::repeats(const RepeatQuery& query,
     const LayoutChoices& choices = impl_->space(spaces.front()).space.layout.choices;
     postures.push_back(read_postures(*impl_, std::move(takes_of_skeleton),
                                      {choices.root_joint, choices.up_axis}, reader.constants(),
-                                     tick));
+                                     query.jobs, tick));
   }
   snapshot.reset();  // a writer need not wait for the comparing
   for (SkeletonPostures& of_skeleton : postures) {

@@ -30,18 +30,17 @@ bool keeps(const LayerRecord& layer, FidelityTier tier) {
 
 /// The number of frames decides how much memory a decoder takes. It can be no more than the text
 /// that the take is said to come from had room for, and that text no larger than texts may be.
-void check_frames(const TakeRecord& record, const Skeleton& skeleton) {
+void check_frames(const TakeInfo& take, const Skeleton& skeleton) {
   const auto channels = static_cast<std::uint64_t>(skeleton.channel_count);
   const std::uint64_t numbers =
       skeleton.format == MotionFormat::bvh ? channels : channels / InputLimits::channels_per_value;
   // Each has a digit, and a space or the end of the line after it.
   const std::uint64_t frame_bytes = std::max<std::uint64_t>(1, 2 * numbers);
-  const auto frames = static_cast<std::uint64_t>(record.info.frames);
-  if (record.info.text_bytes <= InputLimits::file_bytes &&
-      frames <= record.info.text_bytes / frame_bytes) {
+  const auto frames = static_cast<std::uint64_t>(take.frames);
+  if (take.text_bytes <= InputLimits::file_bytes && frames <= take.text_bytes / frame_bytes) {
     return;
   }
-  throw Error(ErrorCode::damaged, "the archive is damaged: take '" + record.info.name +
+  throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
                                       "' has more frames than a text can hold");
 }
 
@@ -63,25 +62,21 @@ ChannelMatrix parsed_channels(const Take& empty, const std::string& text, const 
               "the archive is damaged: the text of take '" + name + "' is not what was taken in");
 }
 
-ChannelMatrix channels_of(OpenArchive& archive, const TakeRecord& record, const Take& empty,
-                          std::size_t index, std::string* text) {
-  const LayerRecord& layer = record.layers[index];
-  const Bytes data = archive.store.layer(record.info.id, index);
-  const TakeShape shape{record.info.frames, record.info.frame_rate};
-  switch (layer.kind) {
-    case LayerKind::coefficients: {
-      const CodedSpace& space = archive.space(record.space);
-      if (!same_structure(space.space.layout.reference, *empty.skeleton)) {
-        throw Error(ErrorCode::damaged, "the archive is damaged: the axes of take '" +
-                                            record.info.name + "' are another skeleton's");
+ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::string* text) {
+  const TakeInfo& info = stored.take;
+  const TakeShape shape{info.frames, info.frame_rate};
+  switch (stored.kind) {
+    case LayerKind::coefficients:
+      if (!same_structure(stored.space->space.layout.reference, *empty.skeleton)) {
+        throw Error(ErrorCode::damaged, "the archive is damaged: the axes of take '" + info.name +
+                                            "' are another skeleton's");
       }
-      return decode_take(space, *empty.skeleton, shape, data);
-    }
+      return decode_take(*stored.space, *empty.skeleton, shape, stored.bytes);
     case LayerKind::refinement:
-      return decode_refinement(*empty.skeleton, shape, data);
+      return decode_refinement(*empty.skeleton, shape, stored.bytes);
     case LayerKind::text: {
-      std::string decoded = decode_text(data, known_text(empty));
-      ChannelMatrix channels = parsed_channels(empty, decoded, record.info.name);
+      std::string decoded = decode_text(stored.bytes, known_text(empty));
+      ChannelMatrix channels = parsed_channels(empty, decoded, info.name);
       if (text != nullptr) *text = std::move(decoded);
       return channels;
     }
@@ -101,13 +96,19 @@ std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier) 
                                     "; it cannot be extracted as " + tier_name(*tier));
 }
 
-Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer,
-                  std::string* text) {
-  Take take = empty_take(archive.proportions(record.proportions), record.info.format);
-  take.name = record.info.name;
-  check_frames(record, *take.skeleton);
-  take.channels = channels_of(archive, record, take, layer, text);
-  if (take.frames() != record.info.frames) {
+StoredLayer read_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer) {
+  const LayerKind kind = record.layers[layer].kind;
+  return {record.info, kind, archive.store.layer(record.info.id, layer),
+          archive.proportions(record.proportions),
+          kind == LayerKind::coefficients ? &archive.space(record.space) : nullptr};
+}
+
+Take decode_layer(const StoredLayer& stored, std::string* text) {
+  Take take = empty_take(stored.proportions, stored.take.format);
+  take.name = stored.take.name;
+  check_frames(stored.take, *take.skeleton);
+  take.channels = channels_of(stored, take, text);
+  if (take.frames() != stored.take.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
                                         "' has another number of frames than was stored");
   }
@@ -117,6 +118,11 @@ Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t la
                                         "' decodes to numbers that no motion has");
   }
   return take;
+}
+
+Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer,
+                  std::string* text) {
+  return decode_layer(read_layer(archive, record, layer), text);
 }
 
 std::string decode_source_text(OpenArchive& archive, const TakeRecord& record) {

@@ -12,6 +12,18 @@ namespace reprise {
 /// where none does.
 std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier);
 
+/// A layer as it is stored, with what decoding it needs; it refers to what the archive has at hand.
+struct StoredLayer {
+  TakeInfo take;
+  LayerKind kind;
+  Bytes bytes;
+  const ProportionsRecord& proportions;
+  const CodedSpace* space;  ///< of coefficients
+};
+/// Reading is for one thread at a time, decoding is not. Both throw Error (damaged).
+StoredLayer read_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer);
+Take decode_layer(const StoredLayer& stored, std::string* text = nullptr);
+
 /// A take as one of its layers has it; where that layer is a text and `text` is given, it is put
 /// there, so that nothing is decoded twice. Throws Error (damaged).
 Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer,

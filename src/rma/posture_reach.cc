@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "rma/parallel_for.h"
+
 namespace reprise {
 namespace {
 
@@ -27,15 +29,15 @@ PostureMatrix spread_sample(std::span<const PostureMatrix> takes) {
 }  // namespace
 
 std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> projected,
-                                                double part) {
+                                                double part, unsigned jobs) {
   constexpr long block = 256;  // postures at a time: a long take needs no more memory
   assert(part >= 0 && part <= 1);
   const PostureMatrix sample = spread_sample(projected);
   const Eigen::RowVectorXf squares = sample.rowwise().squaredNorm().transpose();
   const auto rank = static_cast<long>(part * static_cast<double>(sample.rows() - 1));
-  std::vector<std::vector<float>> reaches;
-  for (const PostureMatrix& take : projected) {
-    std::vector<float>& reach = reaches.emplace_back();
+  std::vector<std::vector<float>> reaches(projected.size());
+  parallel_for(projected.size(), jobs, [&](std::size_t t) {
+    const PostureMatrix& take = projected[t];
     for (long begin = 0; begin < take.rows(); begin += block) {
       const auto postures = take.middleRows(begin, std::min(block, take.rows() - begin));
       PostureMatrix squared = -2 * postures * sample.transpose();
@@ -44,10 +46,10 @@ std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> p
       for (long s = 0; s < squared.rows(); ++s) {
         float* const distances = squared.row(s).data();
         std::nth_element(distances, distances + rank, distances + squared.cols());
-        reach.push_back(std::sqrt(std::max(0.0F, distances[rank])));
+        reaches[t].push_back(std::sqrt(std::max(0.0F, distances[rank])));
       }
     }
-  }
+  });
   return reaches;
 }
 

@@ -11,8 +11,8 @@ namespace reprise {
 /// Of each sample of each take: its reach, the distance (mm) within which `part` (0 to 1) of all
 /// postures lie, itself among them. It is short where people stand and long within rare motion.
 /// Large libraries are judged by a thousand or two of their postures, evenly spread. `projected`
-/// are postures on the axes of one PostureBasis.
+/// are postures on the axes of one PostureBasis. `jobs` threads, 0: one a core.
 std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> projected,
-                                                double part);
+                                                double part, unsigned jobs = 1);
 
 }  // namespace reprise

@@ -2,30 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "rma/clip_extents.h"
-#include "rma/parallel_for.h"
-#include "rma/posture_reach.h"
 
 namespace reprise {
 namespace {
 
 /// A clip that shares this much with a member of a group is explained by the group.
 constexpr double explained_overlap = 0.7;
-
-/// A stretch of a take that is to be looked at.
-struct Stretch {
-  std::size_t take = 0;
-  long begin = 0;
-  long end = 0;
-};
 
 /// A stretch around one place that is near to a place of a clip.
 struct ReachedPart {
@@ -117,71 +106,6 @@ class GroupFinder {
   std::vector<std::vector<int>> times_told_;  ///< of each sample: in how many groups it is
 };
 
-bool moves(const PostureView& clip, const RepeatConstants& constants) {
-  const long steps = clip.postures.rows() - 1;
-  double sum = 0;
-  for (long s = 0; s < steps; ++s) {
-    sum += mean_joint_distance(clip.postures.row(s).data(), clip.postures.row(s + 1).data(),
-                               clip.postures.cols());
-  }
-  return steps > 0 &&
-         sum / static_cast<double>(steps) * constants.rate >= constants.least_speed_mm_s;
-}
-
-/// RepeatConstants::member_mm, less where the clip's postures have to be nearer to postures of a
-/// take to be similar.
-float narrowed_member_mm(const PostureLibrary& library, const Occurrence& clip, std::size_t take,
-                         const RepeatConstants& constants) {
-  const auto similar = library.similar(clip.take, take).begin();
-  const float sum = std::accumulate(similar + clip.begin, similar + clip.end, 0.0F);
-  const float mean = sum / static_cast<float>(clip.end - clip.begin);
-  return constants.member_mm * mean / constants.similar_mm;
-}
-
-/// The part of it that counts for a clip of this many samples.
-float length_share(long samples, const RepeatConstants& constants) {
-  const double shortest = constants.least_path_s,
-               seconds = static_cast<double>(samples) / constants.rate;
-  const double part =
-      std::clamp((seconds - shortest) / (constants.whole_clip_s - shortest), 0.0, 1.0);
-  return constants.short_share + (1 - constants.short_share) * static_cast<float>(part);
-}
-
-/// Of a take: the mean joint distance (mm) to a clip up to which something in it repeats the clip.
-using MemberLimit = std::function<float(std::size_t take)>;
-
-/// What is like the clip in a stretch and does not overlap it.
-std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurrence& clip,
-                                   const PostureView& view, const Stretch& stretch,
-                                   const MemberLimit& most_mm, const RepeatConstants& constants) {
-  const auto found = align_clip(view, library.view(stretch.take, stretch.begin, stretch.end),
-                                most_mm(stretch.take));
-  const long least = std::lround(constants.least_clip_s * constants.rate);
-  std::vector<Occurrence> members;
-  for (const AlignedClip& member : found) {
-    const long begin = stretch.begin + member.begin, end = stretch.begin + member.end;
-    if (end - begin < least) continue;
-    if (stretch.take == clip.take && begin < clip.end && clip.begin < end) continue;
-    Occurrence occurrence{stretch.take, begin, end, member.mean_mm, member.map};
-    for (long& sample : occurrence.map) sample += stretch.begin;
-    members.push_back(std::move(occurrence));
-  }
-  return members;
-}
-
-/// Adds what is like the clip in any of the stretches, in their order.
-void add_members(const PostureLibrary& library, const Occurrence& clip, const PostureView& view,
-                 const std::vector<Stretch>& stretches, const MemberLimit& most_mm,
-                 const RepeatConstants& constants, unsigned jobs, RepeatGroup& group) {
-  // A thread costs as much as some alignments.
-  constexpr std::size_t least_stretches = 16;
-  std::vector<std::vector<Occurrence>> members(stretches.size());
-  parallel_for(stretches.size(), stretches.size() < least_stretches ? 1 : jobs, [&](std::size_t s) {
-    members[s] = members_in(library, clip, view, stretches[s], most_mm, constants);
-  });
-  for (auto& list : members) std::ranges::move(list, std::back_inserter(group.occurrences));
-}
-
 std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
   std::map<std::size_t, std::vector<ReachedPart>> reached;
   const long length = clip.end - clip.begin;
@@ -213,54 +137,14 @@ std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
 
 RepeatGroup GroupFinder::members_of(const Occurrence& clip) const {
   RepeatGroup group{{clip}};
-  const PostureView view = library_.view(clip.take, clip.begin, clip.end);
-  if (!moves(view, constants_)) return group;
-  const float share = length_share(clip.end - clip.begin, constants_);
-  const MemberLimit most_mm = [&](std::size_t take) {
-    return share * narrowed_member_mm(library_, clip, take, constants_);
-  };
-  add_members(library_, clip, view, stretches_near(clip), most_mm, constants_, jobs_, group);
+  if (!moves(library_.view(clip.take, clip.begin, clip.end), constants_)) return group;
+  std::ranges::move(find_members(library_, clip, stretches_near(clip),
+                                 group_limit(library_, clip, constants_), constants_, jobs_),
+                    std::back_inserter(group.occurrences));
   return group;
 }
 
 }  // namespace
-
-PostureLibrary::PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants)
-    : postures(std::move(takes)) {
-  const PostureBasis basis(postures, constants.axes);
-  for (const PostureMatrix& take : postures) {
-    projected.push_back(basis.project(take));
-    similar_mm.emplace_back(static_cast<std::size_t>(take.rows()), constants.similar_mm);
-    similar_across_mm.emplace_back(static_cast<std::size_t>(take.rows()),
-                                   constants.across_subjects * constants.similar_mm);
-  }
-}
-
-void PostureLibrary::narrow_to_reach(const RepeatConstants& constants) {
-  constexpr float least_mm = 1;  // distances are divided by it
-  const auto reaches = posture_reaches(projected, constants.reach_part);
-  for (std::size_t take = 0; take < takes(); ++take) {
-    for (auto* similar : {&similar_mm[take], &similar_across_mm[take]}) {
-      for (std::size_t s = 0; s < similar->size(); ++s) {
-        (*similar)[s] =
-            std::clamp(constants.reach_share * reaches[take][s], least_mm, (*similar)[s]);
-      }
-    }
-  }
-}
-
-bool PostureLibrary::of_one_subject(std::size_t take, std::size_t other) const {
-  return subjects.empty() || subjects[take] == subjects[other];
-}
-
-const std::vector<float>& PostureLibrary::similar(std::size_t take, std::size_t other) const {
-  return of_one_subject(take, other) ? similar_mm[take] : similar_across_mm[take];
-}
-
-PostureView PostureLibrary::view(std::size_t take, long begin, long end) const {
-  return {postures[take].middleRows(begin, end - begin),
-          projected[take].middleRows(begin, end - begin)};
-}
 
 std::vector<RepeatGroup> find_repeat_groups(const PostureLibrary& library,
                                             std::span<const NearPair> near_pairs,
@@ -303,15 +187,9 @@ RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& cli
   for (std::size_t take = 0; take < library.takes(); ++take) {
     takes.push_back({take, 0, library.postures[take].rows()});
   }
-  const MemberLimit most_mm = [&](std::size_t take) {
-    const float widest = library.of_one_subject(clip.take, take)
-                             ? constants.member_mm
-                             : constants.across_subjects * constants.member_mm;
-    return std::min(widest,
-                    constants.asked_share * narrowed_member_mm(library, clip, take, constants));
-  };
-  add_members(library, clip, library.view(clip.take, clip.begin, clip.end), takes, most_mm,
-              constants, jobs, group);
+  std::ranges::move(
+      find_members(library, clip, takes, asked_limit(library, clip, constants), constants, jobs),
+      std::back_inserter(group.occurrences));
   return group;
 }
 

@@ -7,45 +7,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "rma/clip_alignment.h"
-#include "rma/postures.h"
+#include "rma/group_members.h"
+#include "rma/posture_library.h"
 #include "rma/repeat_constants.h"
-#include "rma/similar_posture_paths.h"
 
 namespace reprise {
-
-/// Takes that share a skeleton: postures at RepeatConstants::rate, and the same projected.
-struct PostureLibrary {
-  std::vector<PostureMatrix> postures;
-  std::vector<PostureMatrix> projected;
-  /// Of each sample: the distance (mm) from which on a posture is dissimilar, and the same for
-  /// postures of another subject.
-  std::vector<std::vector<float>> similar_mm;
-  std::vector<std::vector<float>> similar_across_mm;
-  /// Of each take; empty where all distances have the same limits.
-  std::vector<std::string> subjects;
-
-  PostureLibrary() = default;
-  /// All samples have the limits of RepeatConstants.
-  PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants);
-
-  /// Lowers limits to RepeatConstants::reach_share of a sample's reach (posture_reaches).
-  /// For libraries of many takes; in a single take that does one thing all is within reach.
-  void narrow_to_reach(const RepeatConstants& constants);
-
-  std::size_t takes() const { return postures.size(); }
-  bool of_one_subject(std::size_t take, std::size_t other) const;
-  /// The limits of a take's samples for postures of another take.
-  const std::vector<float>& similar(std::size_t take, std::size_t other) const;
-  /// One side of the plot of `take` beside another.
-  PlotSide side(std::size_t take, std::size_t other) const {
-    return {projected[take], similar(take, other)};
-  }
-  PostureView view(std::size_t take, long begin, long end) const;
-};
 
 /// Two places around which the motion may be alike. Who finds them is open: a library's index over
 /// short windows, or every pixel of a small plot.
@@ -56,17 +24,6 @@ struct NearPair {
   std::int32_t other_sample = 0;
 
   friend auto operator<=>(const NearPair&, const NearPair&) = default;
-};
-
-/// Samples [begin, end) of a take; `distance_mm` is the mean joint distance to the group's
-/// reference.
-struct Occurrence {
-  std::size_t take = 0;
-  long begin = 0;
-  long end = 0;
-  float distance_mm = 0;
-  /// Of each sample of the reference: the sample of this take beside it. Empty for the reference.
-  std::vector<long> map{};
 };
 
 /// The reference first, at distance 0; then its repeats by take and time. No two overlap.

@@ -1,27 +1,33 @@
-#include "query/posture_library.h"
+#include "query/skeleton_postures.h"
 
 #include <cassert>
+#include <mutex>
 #include <utility>
 
 #include "query/take_decoder.h"
+#include "rma/parallel_for.h"
 
 namespace reprise {
 
 SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes,
                                const RootAxis& root, const RepeatConstants& constants,
-                               const std::function<void(const TakeInfo&)>& tick) {
-  std::vector<PostureMatrix> postures;
-  postures.reserve(takes.size());
-  std::vector<double> sizes;
-  for (const TakeInfo& take : takes) {
-    tick(take);
-    const Take decoded = decode_layer(archive, archive.store.take(take.id), 0);
-    postures.push_back(aligned_postures(decoded, root, constants.rate));
-    sizes.push_back(body_size(decoded, root));
-  }
+                               unsigned jobs, const std::function<void(const TakeInfo&)>& tick) {
+  std::vector<PostureMatrix> postures(takes.size());
+  std::vector<double> sizes(takes.size());
+  std::mutex reading;
+  parallel_for(takes.size(), jobs, [&](std::size_t t) {
+    const StoredLayer stored = [&] {
+      const std::lock_guard lock(reading);
+      tick(takes[t]);
+      return read_layer(archive, archive.store.take(takes[t].id), 0);
+    }();
+    const Take decoded = decode_layer(stored);
+    postures[t] = aligned_postures(decoded, root, constants.rate);
+    sizes[t] = body_size(decoded, root);
+  });
   std::vector<float> factors = bring_to_median_size(postures, sizes);
   PostureLibrary library(std::move(postures), constants);
-  library.narrow_to_reach(constants);
+  library.narrow_to_reach(constants, jobs);
   return {std::move(takes), std::move(factors), std::move(library)};
 }
 

@@ -18,10 +18,11 @@ struct SkeletonPostures {
 };
 
 /// Decodes the coarsest layer of every one of `takes`, which share a skeleton whose root is `root`.
-/// `tick` hears of each. Throws Error (damaged).
+/// `tick` hears of each, from one of `jobs` threads at a time (0: one a core). Throws Error
+/// (damaged).
 SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes,
                                const RootAxis& root, const RepeatConstants& constants,
-                               const std::function<void(const TakeInfo&)>& tick);
+                               unsigned jobs, const std::function<void(const TakeInfo&)>& tick);
 
 /// Mean joint distance (mm) of an occurrence to the reference that its map belongs to, both in
 /// their own sizes.
