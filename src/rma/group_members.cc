@@ -31,20 +31,20 @@ float length_share(long samples, const RepeatConstants& constants) {
   return constants.short_share + (1 - constants.short_share) * static_cast<float>(part);
 }
 
-/// What is like the clip in a stretch and does not overlap it.
+/// What is like the clip in a part and does not overlap it.
 std::vector<Occurrence> members_in(const PostureLibrary& library, const Occurrence& clip,
-                                   const PostureView& view, const Stretch& stretch,
+                                   const PostureView& view, const SearchedPart& part,
                                    const MemberLimit& most_mm, const RepeatConstants& constants) {
-  const auto found = align_clip(view, library.view(stretch.take, stretch.begin, stretch.end),
-                                most_mm(stretch.take));
+  const auto found =
+      align_clip(view, library.view(part.take, part.begin, part.end), most_mm(part.take));
   const long least = std::lround(constants.least_clip_s * constants.rate);
   std::vector<Occurrence> members;
   for (const AlignedClip& member : found) {
-    const long begin = stretch.begin + member.begin, end = stretch.begin + member.end;
+    const long begin = part.begin + member.begin, end = part.begin + member.end;
     if (end - begin < least) continue;
-    if (stretch.take == clip.take && begin < clip.end && clip.begin < end) continue;
-    Occurrence occurrence{stretch.take, begin, end, member.mean_mm, member.map};
-    for (long& sample : occurrence.map) sample += stretch.begin;
+    if (part.take == clip.take && begin < clip.end && clip.begin < end) continue;
+    Occurrence occurrence{part.take, begin, end, member.mean_mm, member.map};
+    for (long& sample : occurrence.map) sample += part.begin;
     members.push_back(std::move(occurrence));
   }
   return members;
@@ -83,15 +83,15 @@ MemberLimit asked_limit(const PostureLibrary& library, const Occurrence& clip,
 }
 
 std::vector<Occurrence> find_members(const PostureLibrary& library, const Occurrence& clip,
-                                     const std::vector<Stretch>& stretches,
+                                     const std::vector<SearchedPart>& parts,
                                      const MemberLimit& most_mm, const RepeatConstants& constants,
                                      unsigned jobs) {
   // A thread costs as much as some alignments.
-  constexpr std::size_t least_stretches = 16;
+  constexpr std::size_t least_parts = 16;
   const PostureView view = library.view(clip.take, clip.begin, clip.end);
-  std::vector<std::vector<Occurrence>> found(stretches.size());
-  parallel_for(stretches.size(), stretches.size() < least_stretches ? 1 : jobs, [&](std::size_t s) {
-    found[s] = members_in(library, clip, view, stretches[s], most_mm, constants);
+  std::vector<std::vector<Occurrence>> found(parts.size());
+  parallel_for(parts.size(), parts.size() < least_parts ? 1 : jobs, [&](std::size_t s) {
+    found[s] = members_in(library, clip, view, parts[s], most_mm, constants);
   });
   std::vector<Occurrence> members;
   for (auto& list : found) std::ranges::move(list, std::back_inserter(members));

@@ -1,4 +1,4 @@
-// What repeats a clip, within stretches of takes.
+// What repeats a clip, within parts of takes.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct Occurrence {
 };
 
 /// Samples [begin, end) of a take that are to be looked at.
-struct Stretch {
+struct SearchedPart {
   std::size_t take = 0;
   long begin = 0;
   long end = 0;
@@ -41,10 +41,10 @@ MemberLimit group_limit(const PostureLibrary& library, const Occurrence& clip,
 MemberLimit asked_limit(const PostureLibrary& library, const Occurrence& clip,
                         const RepeatConstants& constants);
 
-/// What is like the clip in any of the stretches, in their order, and does not overlap it. `jobs`
+/// What is like the clip in any of the parts, in their order, and does not overlap it. `jobs`
 /// threads, 0: one a core; results do not depend on it.
 std::vector<Occurrence> find_members(const PostureLibrary& library, const Occurrence& clip,
-                                     const std::vector<Stretch>& stretches,
+                                     const std::vector<SearchedPart>& parts,
                                      const MemberLimit& most_mm, const RepeatConstants& constants,
                                      unsigned jobs);
 

@@ -16,7 +16,7 @@ namespace {
 /// A clip that shares this much with a member of a group is explained by the group.
 constexpr double explained_overlap = 0.7;
 
-/// A stretch around one place that is near to a place of a clip.
+/// A part around one place that is near to a place of a clip.
 struct ReachedPart {
   long begin = 0;
   long end = 0;
@@ -96,7 +96,7 @@ class GroupFinder {
     return other.occurrences.size() > group.occurrences.size() ? other : group;
   }
 
-  std::vector<Stretch> stretches_near(const Occurrence& clip) const;
+  std::vector<SearchedPart> parts_near(const Occurrence& clip) const;
 
   const PostureLibrary& library_;
   const RepeatConstants& constants_;
@@ -106,7 +106,7 @@ class GroupFinder {
   std::vector<std::vector<int>> times_told_;  ///< of each sample: in how many groups it is
 };
 
-std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
+std::vector<SearchedPart> GroupFinder::parts_near(const Occurrence& clip) const {
   std::map<std::size_t, std::vector<ReachedPart>> reached;
   const long length = clip.end - clip.begin;
   const long reach = RepeatConstants::steepest * length;
@@ -119,26 +119,26 @@ std::vector<Stretch> GroupFinder::stretches_near(const Occurrence& clip) const {
   }
   const auto least_places =
       std::lround(constants_.least_near_per_s / constants_.rate * static_cast<double>(length));
-  std::vector<Stretch> stretches;
+  std::vector<SearchedPart> searched;
   for (auto& [take, parts] : reached) {
     std::ranges::sort(parts, {}, [](const ReachedPart& p) { return std::pair(p.begin, p.end); });
     for (std::size_t p = 0; p < parts.size();) {
-      Stretch stretch{take, parts[p].begin, parts[p].end};
+      SearchedPart part{take, parts[p].begin, parts[p].end};
       std::set<long> places;
-      for (; p < parts.size() && parts[p].begin <= stretch.end; ++p) {
-        stretch.end = std::max(stretch.end, parts[p].end);
+      for (; p < parts.size() && parts[p].begin <= part.end; ++p) {
+        part.end = std::max(part.end, parts[p].end);
         places.insert(parts[p].from);
       }
-      if (static_cast<long>(places.size()) >= least_places) stretches.push_back(stretch);
+      if (static_cast<long>(places.size()) >= least_places) searched.push_back(part);
     }
   }
-  return stretches;
+  return searched;
 }
 
 RepeatGroup GroupFinder::members_of(const Occurrence& clip) const {
   RepeatGroup group{{clip}};
   if (!moves(library_.view(clip.take, clip.begin, clip.end), constants_)) return group;
-  std::ranges::move(find_members(library_, clip, stretches_near(clip),
+  std::ranges::move(find_members(library_, clip, parts_near(clip),
                                  group_limit(library_, clip, constants_), constants_, jobs_),
                     std::back_inserter(group.occurrences));
   return group;
@@ -183,7 +183,7 @@ RepeatGroup find_repeats_of(const PostureLibrary& library, const Occurrence& cli
                             const RepeatConstants& constants, unsigned jobs) {
   RepeatGroup group{{clip}};
   group.occurrences[0].distance_mm = 0;
-  std::vector<Stretch> takes;
+  std::vector<SearchedPart> takes;
   for (std::size_t take = 0; take < library.takes(); ++take) {
     takes.push_back({take, 0, library.postures[take].rows()});
   }

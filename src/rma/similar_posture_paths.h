@@ -33,6 +33,7 @@ struct PlotSide {
   std::span<const float> similar_mm;
 };
 
+/// Traces one path after another in the same memory; one thread at a time.
 class PathTracer {
  public:
   explicit PathTracer(const RepeatConstants& constants);
