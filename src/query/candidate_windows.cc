@@ -49,7 +49,7 @@ RowBasis basis_of_postures(const std::vector<const PostureTrack*>& tracks) {
   for (const PostureTrack* track : tracks) {
     for (long f = (stride - at % stride) % stride; f < track->frames(); f += stride) {
       const double time = static_cast<double>(f) / PostureConstants::rate;
-      const PostureMatrix row =
+      const BodyPostures row =
           postures(*track, {time, time}, 1, LikenessConstants::bearing_taken_out);
       chosen.insert(chosen.end(), row.data(), row.data() + row.size());
     }

@@ -31,7 +31,7 @@ void interpolate(const PostureTrack& track, double seconds, float* directions, f
 }
 
 /// Path of each bone end over the stretch, mm, from frame to frame.
-BoneValues paths(const PostureMatrix& rows) {
+BoneValues paths(const BodyPostures& rows) {
   BoneValues sum = BoneValues::Zero();
   for (long f = 1; f < rows.rows(); ++f) {
     for (int b = 0; b < plan_bones; ++b) {
@@ -42,7 +42,7 @@ BoneValues paths(const PostureMatrix& rows) {
 }
 
 /// Standard deviation of the place of each bone end.
-BoneValues deviations(const PostureMatrix& rows) {
+BoneValues deviations(const BodyPostures& rows) {
   const PostureRow mean = rows.colwise().mean();
   BoneValues squares = BoneValues::Zero();
   for (long f = 0; f < rows.rows(); ++f) {
@@ -108,9 +108,8 @@ const float per_bone = std::sqrt(1.0f / static_cast<float>(plan_bones));
 
 }  // namespace
 
-PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int count,
-                       float bearing) {
-  PostureMatrix rows(count, posture_size);
+BodyPostures postures(const PostureTrack& track, const Stretch& stretch, int count, float bearing) {
+  BodyPostures rows(count, posture_size);
   std::array<float, direction_size> directions{}, ends{};
   std::array<float, root_speeds> speeds{};
   for (int i = 0; i < count; ++i) {
@@ -152,7 +151,7 @@ MotionForm motion_form(const PostureTrack& track, const Stretch& stretch, int sa
   form.activity = deviations(form.rows) / per_bone;
   const int frames =
       std::max(2, static_cast<int>(std::lround(stretch.seconds() * PostureConstants::rate)) + 1);
-  const PostureMatrix all = postures(track, stretch, frames, 0.0f);
+  const BodyPostures all = postures(track, stretch, frames, 0.0f);
   form.recurrence =
       ((paths(all) / per_bone + K::rest_mm) / (deviations(all) / per_bone + K::rest_mm)).log();
   for (int b = 0; b < plan_bones; ++b) {
@@ -190,8 +189,8 @@ double unlikeness(const MotionForm& a, const MotionForm& b, const LikenessWeight
 double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const PostureTrack& b,
                            const Stretch& in_b) {
   const int samples = samples_for(std::max(in_a.seconds(), in_b.seconds()));
-  const PostureMatrix rows_a = postures(a, in_a, samples, 0.0f);
-  const PostureMatrix rows_b = postures(b, in_b, samples, 0.0f);
+  const BodyPostures rows_a = postures(a, in_a, samples, 0.0f);
+  const BodyPostures rows_b = postures(b, in_b, samples, 0.0f);
   std::vector<int> shared;
   for (int i = 0; i < plan_bones; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -209,7 +208,7 @@ double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const Pos
   return sum / (per_bone * static_cast<double>(shared.size() * path.size()));
 }
 
-RowRange best_fit(const PostureMatrix& query, const PostureMatrix& target) {
+RowRange best_fit(const BodyPostures& query, const BodyPostures& target) {
   const CostMatrix costs = row_distances(query, target);
   const long rows = costs.rows(), columns = costs.cols();
   // Steps (1,1), (1,2) and (2,1): half to twice the speed. Every row of the query counts once.

@@ -64,7 +64,7 @@ constexpr LikenessWeights part_weights = {.course_recurrence = 90,
                                           .summary_part = 2.0 / 3};
 
 constexpr int posture_size = plan_bones * 3 + root_speeds;
-using PostureMatrix = Eigen::Matrix<float, Eigen::Dynamic, posture_size, Eigen::RowMajor>;
+using BodyPostures = Eigen::Matrix<float, Eigen::Dynamic, posture_size, Eigen::RowMajor>;
 using BoneValues = Eigen::Array<float, plan_bones, 1>;
 
 /// A stretch of a track, in seconds from its first frame.
@@ -77,7 +77,7 @@ struct Stretch {
 /// The postures of a track at `count` times spread evenly over the stretch: places of bone ends
 /// over the square root of their number, so that a distance of rows is a root mean square in mm,
 /// and weighted speeds. `bearing` is how much of the median posture is taken out.
-PostureMatrix postures(const PostureTrack& track, const Stretch& stretch, int count, float bearing);
+BodyPostures postures(const PostureTrack& track, const Stretch& stretch, int count, float bearing);
 
 using PostureRow = Eigen::Matrix<float, 1, posture_size>;
 
@@ -95,7 +95,7 @@ struct MotionSummary {
 
 /// What is compared of a stretch.
 struct MotionForm {
-  PostureMatrix rows;     ///< bearing taken out
+  BodyPostures rows;      ///< bearing taken out
   BoneValues activity;    ///< how much a bone end moves: standard deviation, mm
   BoneValues recurrence;  ///< log of its path over its range
   BoneValues lengths;     ///< of the plan
@@ -122,6 +122,6 @@ struct RowRange {
   long begin = 0;
   long end = 0;
 };
-RowRange best_fit(const PostureMatrix& query, const PostureMatrix& target);
+RowRange best_fit(const BodyPostures& query, const BodyPostures& target);
 
 }  // namespace reprise

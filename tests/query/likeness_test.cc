@@ -131,8 +131,8 @@ TEST(PostureTrack, ASingleFrameIsAMotion) {
 TEST(BestFit, APartIsFoundWhereItIs) {
   const PostureTrack track = posture_track(library().takes[1]);
   const int frames = static_cast<int>(track.frames());
-  const PostureMatrix target = postures(track, whole(track), frames, 0.85f);
-  const PostureMatrix part = target.middleRows(frames / 3, 15);
+  const BodyPostures target = postures(track, whole(track), frames, 0.85f);
+  const BodyPostures part = target.middleRows(frames / 3, 15);
   const RowRange found = best_fit(part, target);
   EXPECT_NEAR(static_cast<double>(found.begin), frames / 3, 1);
   EXPECT_NEAR(static_cast<double>(found.end), frames / 3 + 15, 1);
@@ -140,7 +140,7 @@ TEST(BestFit, APartIsFoundWhereItIs) {
 
 TEST(BestFit, AQueryThatCannotFitTakesAllOfTheTarget) {
   const PostureTrack track = posture_track(library().takes[1]);
-  const PostureMatrix rows = postures(track, whole(track), 40, 0.85f);
+  const BodyPostures rows = postures(track, whole(track), 40, 0.85f);
   const RowRange found = best_fit(rows, rows.topRows(5));
   EXPECT_EQ(found.begin, 0);
   EXPECT_EQ(found.end, 5);
