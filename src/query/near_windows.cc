@@ -65,9 +65,11 @@ Eigen::MatrixXf leading_axes(const PointMatrix& points, int count) {
 
 /// The windows that one looks at, nearest first: at most as many as are asked for.
 std::vector<Neighbour> near_windows(const WindowIndex& index, std::span<const float> point,
-                                    std::size_t neighbours, float most_mm, double excess) {
-  return excess > 1 ? index.nearly_nearest(point, neighbours, most_mm, excess)
-                    : index.nearest(point, neighbours);
+                                    std::size_t neighbours, float most_mm,
+                                    const NearWindowConstants& constants) {
+  return constants.excess > 1 ? index.nearly_nearest(point, neighbours, most_mm, constants.excess,
+                                                     constants.most_looks)
+                              : index.nearest(point, neighbours);
 }
 
 struct RankedPair {
@@ -126,7 +128,7 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
         const std::span<const float> point(points.row(static_cast<long>(w)).data(),
                                            static_cast<std::size_t>(points.cols()));
         for (const Neighbour& near :
-             near_windows(index, point, neighbours, greatest_mm, constants.excess)) {
+             near_windows(index, point, neighbours, greatest_mm, constants)) {
           const Window& window = asked.windows[w];
           const Window& other = own.windows[near.point];
           const float most = library.of_one_subject(window.take, other.take)

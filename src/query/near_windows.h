@@ -23,6 +23,10 @@ struct NearWindowConstants {
   std::size_t neighbours_of_one_take = 24;
   /// They may be this many times as far as those that are nearest (WindowIndex::nearly_nearest).
   double excess = 2;
+  /// Parts of the tree that a search for them looks into at most: what it costs does not grow with
+  /// the library from some hundred takes on. Measured
+  /// (docs/findings/2026-11-25-repeated-motion.md).
+  long most_looks = 150;
   /// and no further than this: root mean square joint distance, mm.
   float most_mm = 70;
 };

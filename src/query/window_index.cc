@@ -44,12 +44,14 @@ void keep_nearest(std::vector<Neighbour>& neighbours, std::size_t count) {
 /// Collects the `count` nearest within a squared distance.
 class NearestWithin final : public flann::ResultSet<float> {
  public:
-  NearestWithin(std::size_t count, float squared) : count_(count), worst_(squared) {
+  NearestWithin(std::size_t count, float squared, long most_looks)
+      : count_(count), worst_(squared), looks_left_(most_looks) {
     found_.reserve(count);
   }
 
   bool full() const override { return true; }  // never look further than worstDist
-  float worstDist() const override { return worst_; }
+  /// FLANN asks before it looks into a part of the tree.
+  float worstDist() const override { return looks_left_-- > 0 ? worst_ : nowhere; }
   void addPoint(float squared, std::size_t point) override {
     if (!(squared < worst_)) return;
     const std::pair<float, std::size_t> entry(squared, point);
@@ -61,8 +63,11 @@ class NearestWithin final : public flann::ResultSet<float> {
   const std::vector<std::pair<float, std::size_t>>& found() const { return found_; }
 
  private:
+  static constexpr float nowhere = -1;
+
   std::size_t count_;
   float worst_;
+  mutable long looks_left_;
   std::vector<std::pair<float, std::size_t>> found_;
 };
 
@@ -131,11 +136,12 @@ std::vector<Neighbour> WindowIndex::nearest(std::span<const float> query, std::s
 }
 
 std::vector<Neighbour> WindowIndex::nearly_nearest(std::span<const float> query, std::size_t count,
-                                                   double most, double excess) const {
+                                                   double most, double excess,
+                                                   long most_looks) const {
   assert(static_cast<long>(query.size()) == points_.cols());
   assert(excess >= 1);
   if (!tree_ || count == 0 || !(most >= 0)) return {};
-  NearestWithin set(count, static_cast<float>(most * most));
+  NearestWithin set(count, static_cast<float>(most * most), most_looks);
   tree_->index.findNeighbors(
       set, query.data(),
       flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, static_cast<float>(excess * excess - 1)));

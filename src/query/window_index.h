@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,12 +42,16 @@ class WindowIndex {
   /// fewer.
   std::vector<Neighbour> nearest(std::span<const float> query, std::size_t count) const;
 
+  static constexpr long every_look = std::numeric_limits<long>::max();
   /// At most `count` points less than `most` away, nearest first. The one of each rank is at most
   /// `excess` (1 or more) times as far as the one that is truly of that rank; where there are fewer
   /// than `count`, only points further than most / excess are missing. Looks at far fewer points
-  /// than `nearest` does where there are many. The same points have the same answers.
+  /// than `nearest` does where there are many, and into no more than `most_looks` parts of the
+  /// tree, nearest parts first: where these are too few, nearer points may be missing. The same
+  /// points have the same answers.
   std::vector<Neighbour> nearly_nearest(std::span<const float> query, std::size_t count,
-                                        double most, double excess) const;
+                                        double most, double excess,
+                                        long most_looks = every_look) const;
 
   /// All points at most `distance` away.
   std::vector<Neighbour> within(std::span<const float> query, double distance) const;

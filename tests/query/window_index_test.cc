@@ -103,6 +103,28 @@ TEST(WindowIndex, NearlyNearestAreWithinTheDistance) {
   EXPECT_GT(found, 0u);
 }
 
+TEST(WindowIndex, AFewLooksFindPointsThatAreNearMoreFindNearerOnes) {
+  constexpr std::size_t count = 8;
+  constexpr double most = 1e6, excess = 1.5;
+  const PointMatrix points = smooth_points(3000, 6, 15), queries = smooth_points(40, 6, 16);
+  const WindowIndex index(points);
+  std::size_t found_by_few = 0;
+  for (long q = 0; q < queries.rows(); ++q) {
+    const auto query = row(queries, q);
+    const auto all = index.within(query, most);
+    const auto unlimited = index.nearly_nearest(query, count, most, excess);
+    EXPECT_TRUE(index.nearly_nearest(query, count, most, excess, 0).empty());
+    EXPECT_EQ(index.nearly_nearest(query, count, most, excess, points.rows()), unlimited);
+    const auto few = index.nearly_nearest(query, count, most, excess, 12);
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), few.begin(), few.end()));
+    for (std::size_t i = 0; i < few.size(); ++i) {
+      EXPECT_GE(few[i].squared_distance, unlimited[i].squared_distance);
+    }
+    found_by_few += few.size();
+  }
+  EXPECT_GT(found_by_few, 0u);
+}
+
 TEST(WindowIndex, WithoutPointsThereIsNothingNear) {
   const WindowIndex index(PointMatrix(0, 5));
   const std::vector<float> query(5, 0.0f);
