@@ -15,9 +15,10 @@ namespace reprise {
 /// A mean posture and the axes on which postures are written (lin-2011 section 4).
 struct CoefficientSpace {
   MarkerLayout layout;
-  Eigen::VectorXd mean;      ///< 3*markers, mm
-  Eigen::MatrixXd axes;      ///< 3*markers x axes, near orthonormal
-  Eigen::VectorXd variance;  ///< of each axis over the takes that made it, mm^2
+  Eigen::VectorXd mean;                  ///< 3*markers, mm
+  std::vector<std::int32_t> mean_steps;  ///< the same in whole steps, as it is stored
+  Eigen::MatrixXd axes;                  ///< 3*markers x axes, near orthonormal
+  Eigen::VectorXd variance;              ///< of each axis over the takes that made it, mm^2
   std::vector<double>
       start;  ///< a whole frame (degrees and units): what channels are where nothing else says so
 };

@@ -1,9 +1,10 @@
 #include "quant/space_codec.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
+#include "quant/axis_coder.h"
 #include "quant/numbers.h"
 #include "reprise/error.h"
 
@@ -32,49 +33,6 @@ std::uint32_t index_of_precision(double value) {
   const auto index = std::lround(std::log(value) / std::log(quarter_octave)) + precision_bias;
   return static_cast<std::uint32_t>(std::clamp<long>(index, 0, 127));
 }
-
-/// Adaptive magnitudes and signs of axis entries, in classes of how large they should be.
-class EntryModel {
- public:
-  template <class CodeBit>
-  std::int32_t code(std::int32_t value, int size_class, CodeBit&& code_bit) {
-    auto& counters = classes_[static_cast<std::size_t>(std::clamp(size_class, 0, class_count - 1))];
-    const auto magnitude = static_cast<std::uint32_t>(std::abs(value));
-    const std::uint32_t low = std::min(magnitude, escape);
-    std::uint32_t known = 0;
-    while (known < escape &&
-           bit(counters[std::min<std::uint32_t>(known, 23)], low > known, code_bit)) {
-      ++known;
-    }
-    if (known == escape) {
-      std::uint32_t rest = magnitude - escape;
-      std::uint32_t decoded = 0;
-      for (int b = 15; b >= 0; --b) decoded = decoded << 1 | plain((rest >> b & 1) != 0, code_bit);
-      known += decoded;
-    }
-    if (known == 0) return 0;
-    return plain(value < 0, code_bit) ? -static_cast<std::int32_t>(known)
-                                      : static_cast<std::int32_t>(known);
-  }
-
- private:
-  static constexpr int class_count = 24;
-  static constexpr std::uint32_t escape = 4096;
-
-  template <class CodeBit>
-  bool bit(BitCounter& counter, bool value, CodeBit&& code_bit) {
-    const auto one = std::clamp<Probability>(counter.probability, 64, 65536 - 64);
-    const bool coded = code_bit(one, value);
-    counter.update(coded);
-    return coded;
-  }
-  template <class CodeBit>
-  bool plain(bool value, CodeBit&& code_bit) {
-    return code_bit(Probability{1} << (probability_bits - 1), value);
-  }
-
-  std::array<std::array<BitCounter, 24>, class_count> classes_;
-};
 
 /// Step of the entries of an axis, from its standard deviation (mm) in powers of 2^(1/2).
 double axis_step(double axis_error, double deviation) { return axis_error / deviation; }
@@ -105,7 +63,9 @@ struct Writer {
     encoder.encode_plain(value, bits);
     return value;
   }
-  static bool ran_out() { return false; }
+  void axis(AxisCoder& coder, const AxisScale& scale, std::span<std::int32_t> entries) {
+    coder.encode(encoder, scale, entries);
+  }
 };
 
 struct Reader {
@@ -113,6 +73,9 @@ struct Reader {
   bool operator()(Probability one, bool) { return decoder.decode(one); }
   std::int32_t number(std::int32_t) { return decode_signed(decoder); }
   std::uint32_t plain(std::uint32_t, int bits) { return decoder.decode_plain(bits); }
+  void axis(AxisCoder& coder, const AxisScale& scale, std::span<std::int32_t> entries) {
+    if (!coder.decode(decoder, scale, entries)) throw_damaged();
+  }
   bool ran_out() const { return decoder.ran_out(); }
 };
 
@@ -146,30 +109,44 @@ void code_start(Io& io, CoefficientSpace& space, std::size_t channels) {
   }
 }
 
+std::int32_t in_steps(double value, double step) {
+  constexpr double most = AxisCoder::most_entry;
+  return static_cast<std::int32_t>(std::lround(std::clamp(value / step, -most, most)));
+}
+
 template <class Io>
 void code_mean(Io& io, CoefficientSpace& space, double step) {
-  space.mean.conservativeResizeLike(Eigen::VectorXd::Zero(space.layout.dimensions()));
-  for (double& value : space.mean) {
-    value = io.number(static_cast<std::int32_t>(std::lround(value / step))) * step;
-  }
+  const int dimensions = space.layout.dimensions();
+  space.mean.conservativeResizeLike(Eigen::VectorXd::Zero(dimensions));
+  space.mean_steps.resize(static_cast<std::size_t>(dimensions));
+  for (Index d = 0; d < dimensions; ++d)
+    space.mean_steps[static_cast<std::size_t>(d)] = in_steps(space.mean[d], step);
+  AxisCoder coder(space.layout, {});
+  io.axis(coder, {}, space.mean_steps);
+  for (Index d = 0; d < dimensions; ++d)
+    space.mean[d] = space.mean_steps[static_cast<std::size_t>(d)] * step;
 }
 
 /// Codes the axes from `first` on; a reader has made room for them.
 template <class Io>
 void code_axes(Io& io, CoefficientSpace& space, Index first, double axis_error) {
-  EntryModel model;
+  AxisCoder coder(space.layout, space.mean_steps);
   const int dimensions = space.layout.dimensions();
+  std::vector<std::int32_t> entries(static_cast<std::size_t>(dimensions));
+  std::optional<int> before;
   for (Index k = first; k < space.axes.cols(); ++k) {
     const auto deviation =
         io.plain(index_of_deviation(std::sqrt(std::max(space.variance[k], 0.0))), 6);
     space.variance[k] = deviation_of(deviation) * deviation_of(deviation);
     const double step = axis_step(axis_error, deviation_of(deviation));
-    const int expected = size_class(step, dimensions);
-    for (Index d = 0; d < dimensions; ++d) {
-      if (io.ran_out()) throw_damaged();
-      const auto entry = static_cast<std::int32_t>(std::lround(space.axes(d, k) / step));
-      space.axes(d, k) = model.code(entry, expected, io) * step;
-    }
+    const int half_octaves = static_cast<int>(deviation);
+    for (Index d = 0; d < dimensions; ++d)
+      entries[static_cast<std::size_t>(d)] = in_steps(space.axes(d, k), step);
+    io.axis(coder, {size_class(step, dimensions), half_octaves - before.value_or(half_octaves)},
+            entries);
+    before = half_octaves;
+    for (Index d = 0; d < dimensions; ++d)
+      space.axes(d, k) = entries[static_cast<std::size_t>(d)] * step;
   }
 }
 
