@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "archive/kind_choice.h"
 #include "archive/parallel.h"
 
 namespace reprise {
@@ -12,6 +11,11 @@ namespace {
 /// the coder's contexts from at most this many frames.
 constexpr std::size_t most_training_takes = 1000;
 constexpr long most_context_frames = 60000;
+/// How fine axes are is decided by the curves of about so many frames.
+constexpr long most_precision_frames = 6000;
+/// What curves take up in the end, of what they cost, error included, at the step that the search
+/// for one begins with: 0.17 to 0.3 of it, by the libraries of docs/findings/2026-11-26-axes.md.
+constexpr double bits_of_cost = 0.24;
 
 std::vector<std::size_t> spread(const std::vector<std::size_t>& all, std::size_t most) {
   if (all.size() <= most) return all;
@@ -30,7 +34,7 @@ Bytes SpaceTrainer::train(const Skeleton& reference, const Members& members) {
   MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
   const MarkerMoments moments = moments_of(layout, training, false);
   const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
-  const auto bytes = encode_space(space, space_precision(space, mean_mm));
+  const auto bytes = encode_space(space, precision_for(space, 0, members));
   // From here on everything is as the decoder sees it.
   const CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
   const auto prior = train_prior(decoded, training, members.size());
@@ -43,7 +47,7 @@ Bytes SpaceTrainer::extend(const CodedSpace& base, const Members& unfit) {
   const CoefficientSpace space = extend_space(base.space, moments, mean_mm);
   const int known = static_cast<int>(base.space.axes.cols());
   if (space.axes.cols() == known) return {};
-  const auto bytes = encode_extension(space, known, space_precision(space, mean_mm));
+  const auto bytes = encode_extension(space, known, precision_for(space, known, unfit));
   // From here on everything is as the decoder sees it.
   const CoefficientSpace decoded = decode_space(bytes, base.space.layout.reference, &base.space);
   return pack_space(bytes, train_prior(decoded, unfit, unfit.size()));
@@ -64,17 +68,35 @@ MarkerMoments SpaceTrainer::moments_of(const MarkerLayout& layout, const Members
   return moments;
 }
 
+long SpaceTrainer::frames_of(const Members& members) const {
+  long frames = 0;
+  for (const std::size_t i : members) frames += takes_[i].outline.frames;
+  return frames;
+}
+
+SpaceTrainer::Members SpaceTrainer::some_of(const Members& members, long most_frames) const {
+  const auto count = static_cast<double>(members.size());
+  const double part = std::min(1.0, static_cast<double>(most_frames) /
+                                        std::max(1.0, static_cast<double>(frames_of(members))));
+  return spread(members, std::max<std::size_t>(1, static_cast<std::size_t>(part * count)));
+}
+
+SpacePrecision SpaceTrainer::precision_for(const CoefficientSpace& space, Eigen::Index known,
+                                           const Members& members) const {
+  const Members some = some_of(members, most_precision_frames);
+  const double each =
+      static_cast<double>(frames_of(members)) / std::max(1.0, static_cast<double>(frames_of(some)));
+  const double bits = bits_of_cost * std::ranges::min(measure_curves(space, some, each).costs.bits);
+  const auto entries = static_cast<double>(space.layout.dimensions() * (space.axes.cols() - known));
+  return space_precision(space, coarse_mean_mm(options_.fidelity), axis_share(entries, bits));
+}
+
 std::vector<std::uint8_t> SpaceTrainer::train_prior(const CoefficientSpace& space,
                                                     const Members& training, std::size_t all) {
-  long frames = 0;
-  for (const std::size_t i : training) frames += takes_[i].outline.frames;
-  const double part =
-      std::min(1.0, static_cast<double>(most_context_frames) / static_cast<double>(frames));
-  const Members chosen = spread(
-      training, std::max<std::size_t>(
-                    1, static_cast<std::size_t>(part * static_cast<double>(training.size()))));
+  const Members chosen = some_of(training, most_context_frames);
   const double takes_each = static_cast<double>(all) / static_cast<double>(chosen.size());
-  const KnotScales scales = measure_scales(space, chosen, takes_each);
+  const MeasuredCurves curves = measure_curves(space, chosen, takes_each);
+  const KnotScales scales = curves.costs.cheapest(curves.scales);
   const KnotModel model(scales);
   fits_.clear();
   produce_in_order(
@@ -90,9 +112,10 @@ std::vector<std::uint8_t> SpaceTrainer::train_prior(const CoefficientSpace& spac
   return cheaper_prior(scales, takes_each);
 }
 
-KnotScales SpaceTrainer::measure_scales(const CoefficientSpace& space, const Members& members,
-                                        double takes_each) const {
-  KnotScales scales;
+SpaceTrainer::MeasuredCurves SpaceTrainer::measure_curves(const CoefficientSpace& space,
+                                                          const Members& members,
+                                                          double takes_each) const {
+  MeasuredCurves measured;
   std::vector<TakeCurves> curves;
   produce_in_order(
       members.size(), options_.jobs,
@@ -104,18 +127,17 @@ KnotScales SpaceTrainer::measure_scales(const CoefficientSpace& space, const Mem
                           to_trajectories(space, take, marked)};
       },
       [&](std::size_t, TakeCurves one) {
-        add_scales(space, one, scales);
+        add_scales(space, one, measured.scales);
         curves.push_back(std::move(one));
       });
-  scales.settle();
-  KindCosts costs;
-  const KnotModel model(scales);
+  measured.scales.settle();
+  const KnotModel model(measured.scales);
   const int step = guessed_step(coarse_mean_mm(options_.fidelity));
   produce_in_order(
       curves.size(), options_.jobs,
       [&](std::size_t c) { return kind_costs(space, model, curves[c], step); },
-      [&](std::size_t, const KindCosts& own) { costs.add(own, takes_each); });
-  return costs.cheapest(scales);
+      [&](std::size_t, const KindCosts& own) { measured.costs.add(own, takes_each); });
+  return measured;
 }
 
 std::vector<std::uint8_t> SpaceTrainer::cheaper_prior(const KnotScales& scales,

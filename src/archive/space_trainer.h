@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "archive/kind_choice.h"
 #include "archive/take_fit.h"
 #include "archive/take_identity.h"
 
@@ -37,8 +38,19 @@ class SpaceTrainer {
   /// What the coder learns from some of the `training` takes, where that pays for `all` takes.
   std::vector<std::uint8_t> train_prior(const CoefficientSpace& space, const Members& training,
                                         std::size_t all);
-  KnotScales measure_scales(const CoefficientSpace& space, const Members& members,
-                            double takes_each) const;
+  /// How finely the axes of a space from `known` on, and its mean, are stored for takes.
+  SpacePrecision precision_for(const CoefficientSpace& space, Eigen::Index known,
+                               const Members& members) const;
+  /// What the curves of takes are like, and what they cost where each stands for `takes_each`.
+  struct MeasuredCurves {
+    KnotScales scales;
+    KindCosts costs;
+  };
+  MeasuredCurves measure_curves(const CoefficientSpace& space, const Members& members,
+                                double takes_each) const;
+  /// Some of `members`, evenly spread, with about that many frames; one at least.
+  Members some_of(const Members& members, long most_frames) const;
+  long frames_of(const Members& members) const;
   std::vector<std::uint8_t> cheaper_prior(const KnotScales& scales, double takes_each) const;
 
   const std::vector<FreshTake>& takes_;

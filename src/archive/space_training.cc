@@ -128,13 +128,19 @@ CoefficientSpace extend_space(const CoefficientSpace& base, const MarkerMoments&
   return space;
 }
 
-SpacePrecision space_precision(const CoefficientSpace& space, double mean_mm) {
+double axis_share(double entries, double curve_bits) {
+  constexpr double worth = 0.9;
+  const double share = std::sqrt(worth * entries / std::max(curve_bits, 1.0));
+  return std::clamp(share, TrainingConstants::least_axis_share, TrainingConstants::most_axis_share);
+}
+
+SpacePrecision space_precision(const CoefficientSpace& space, double mean_mm, double share) {
   const double points = space.layout.point_count;
   const double axes = static_cast<double>(std::max<Index>(space.axes.cols(), 1));
   const double dimensions = std::max(space.layout.dimensions(), 1);
   // An axis of deviation s with entries rounded to e / s adds e^2 / 12 to each of the dimensions.
   return {TrainingConstants::mean_share * mean_mm * std::sqrt(12.0 * points / dimensions),
-          TrainingConstants::axis_share * mean_mm * std::sqrt(12.0 * points / (dimensions * axes))};
+          share * mean_mm * std::sqrt(12.0 * points / (dimensions * axes))};
 }
 
 }  // namespace reprise

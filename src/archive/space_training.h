@@ -13,8 +13,11 @@ namespace reprise {
 struct TrainingConstants {
   /// What the axes may leave of the allowed mean error (part of it, root mean square).
   static constexpr double residual_share = 0.32;
-  /// What rounding the axes and the mean may add, as parts of it.
-  static constexpr double axis_share = 0.12;
+  /// What rounding the axes may add, as a part of it: `axis_share` between these two. Takes that
+  /// come later have to live with it, so it stays small beside what is left for their curves.
+  static constexpr double least_axis_share = 0.06;
+  static constexpr double most_axis_share = 0.3;
+  /// And rounding the mean.
   static constexpr double mean_share = 0.1;
   /// Frames are taken this many times a second.
   static constexpr double frames_a_second = 15.0;
@@ -47,6 +50,13 @@ CoefficientSpace train_space(MarkerLayout layout, const MarkerMoments& moments,
 CoefficientSpace extend_space(const CoefficientSpace& base, const MarkerMoments& moments,
                               double mean_mm);
 
-SpacePrecision space_precision(const CoefficientSpace& space, double mean_mm);
+/// The part of the allowed mean error at which axes of so many `entries`, and curves of takes that
+/// take some `curve_bits`, are smallest together: an entry takes a bit less for each doubling, and
+/// curves grow with about the power -0.7 of the squared error that is left for them
+/// (docs/findings/2026-11-26-axes.md).
+double axis_share(double entries, double curve_bits);
+
+/// What mean and axes are rounded to, the latter by `share`.
+SpacePrecision space_precision(const CoefficientSpace& space, double mean_mm, double share);
 
 }  // namespace reprise
