@@ -14,25 +14,25 @@ void LayoutEvidence::add(const LayoutEvidence& other) {
   }
   for (std::size_t c = 0; c < active.size(); ++c) {
     active[c] = active[c] || other.active[c];
-    channel_sums[c] += other.channel_sums[c];
   }
   for (std::size_t j = 0; j < travel.size(); ++j) {
     travel[j] += other.travel[j];
     for (int a = 0; a < 3; ++a) upward[j][a] += other.upward[j][a];
   }
-  frames += other.frames;
+  first_frames.insert(first_frames.end(), other.first_frames.begin(), other.first_frames.end());
 }
 
 LayoutEvidence layout_evidence(const Take& take) {
   const Skeleton& skeleton = *take.skeleton;
   LayoutEvidence evidence;
-  evidence.frames = static_cast<double>(take.frames());
+  if (take.frames() > 0) {
+    const auto first = take.channels.row(0);
+    evidence.first_frames.emplace_back(first.begin(), first.end());
+  }
   const Eigen::RowVectorXd low = take.channels.colwise().minCoeff();
   const Eigen::RowVectorXd high = take.channels.colwise().maxCoeff();
-  const Eigen::RowVectorXd sums = take.channels.colwise().sum();
   for (int c = 0; c < skeleton.channel_count; ++c) {
     evidence.active.push_back(high[c] - low[c] > TrainingConstants::least_change);
-    evidence.channel_sums.push_back(sums[c]);
   }
   std::vector<JointFrame> frames(skeleton.joints.size());
   evidence.upward.assign(skeleton.joints.size(), {});
@@ -93,6 +93,21 @@ MarkerMatrix sampled_markers(const MarkerLayout& layout, const Take& take) {
 
 namespace {
 
+/// Of each channel; 0 where there are no frames.
+std::vector<double> median_frame(const std::vector<std::vector<double>>& frames,
+                                 std::size_t channels) {
+  std::vector<double> medians(channels, 0.0);
+  if (frames.empty()) return medians;
+  std::vector<double> values(frames.size());
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::ranges::transform(frames, values.begin(), [&](const auto& frame) { return frame[c]; });
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    medians[c] = *middle;
+  }
+  return medians;
+}
+
 double allowed_residual(const MarkerLayout& layout, double mean_mm) {
   const double residual = TrainingConstants::residual_share * mean_mm;
   return layout.point_count * residual * residual;
@@ -104,9 +119,7 @@ CoefficientSpace train_space(MarkerLayout layout, const MarkerMoments& moments,
                              const LayoutEvidence& evidence, double mean_mm) {
   CoefficientSpace space;
   space.layout = std::move(layout);
-  for (const double sum : evidence.channel_sums) {
-    space.start.push_back(sum / std::max(evidence.frames, 1.0));
-  }
+  space.start = median_frame(evidence.first_frames, evidence.active.size());
   space.mean = moments.mean();
   PrincipalAxes axes =
       principal_axes(moments.covariance(space.mean), Eigen::MatrixXd(space.layout.dimensions(), 0),

@@ -26,14 +26,13 @@ struct TrainingConstants {
   static constexpr double least_change = 1e-3;
 };
 
-/// What a take says about the layout. Sums, so that takes can be added up in a fixed order.
+/// What takes say about the layout. Takes are added up in a fixed order.
 struct LayoutEvidence {
   std::vector<bool> active;
   std::vector<double> travel;  ///< of each joint: range of its position channels, mm
   std::vector<std::array<double, 3>>
       upward;  ///< of each joint: sums of the height of its three axes
-  std::vector<double> channel_sums;
-  double frames = 0;
+  std::vector<std::vector<double>> first_frames;  ///< of each take that has frames
 
   void add(const LayoutEvidence& other);
 };
@@ -43,7 +42,8 @@ LayoutChoices choose_layout(const Skeleton& skeleton, const LayoutEvidence& evid
 /// Every n-th frame of a take as markers.
 MarkerMatrix sampled_markers(const MarkerLayout& layout, const Take& take);
 
-/// Axes for a mean error of `mean_mm`, not yet rounded. `start` is the mean of each channel.
+/// Axes for a mean error of `mean_mm`, not yet rounded. `start` is the median of each channel over
+/// first frames: what most takes begin in the branch of.
 CoefficientSpace train_space(MarkerLayout layout, const MarkerMoments& moments,
                              const LayoutEvidence& evidence, double mean_mm);
 /// `base` with further axes for what does not fit it.

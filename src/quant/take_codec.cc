@@ -1,6 +1,7 @@
 #include "quant/take_codec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "contacts/contact_stage.h"
@@ -35,6 +36,32 @@ KnotShape shape_of(const CoefficientSpace& space, const TakeShape& take, bool tu
   shape.kind = curves.coefficients;
   shape.root_kind = curves.root;
   return shape;
+}
+
+/// Bits that say a driven joint or the root.
+int joint_bits(const CoefficientSpace& space) {
+  return static_cast<int>(std::bit_width(space.layout.driven.size()));
+}
+
+/// Quarter turns: mostly none or a half turn either way.
+void encode_turn(RangeEncoder& encoder, std::int32_t turn) {
+  const auto size = static_cast<std::uint32_t>(std::abs(std::int64_t{turn}));
+  encoder.encode_plain(size != 0, 1);
+  if (size == 0) return;
+  encoder.encode_plain(turn < 0, 1);
+  encoder.encode_plain(size != 2, 1);
+  if (size == 2) return;
+  encoder.encode_plain(size != 1, 1);
+  if (size != 1) encode_number(encoder, size - 3);
+}
+
+std::int32_t decode_turn(RangeDecoder& decoder) {
+  if (decoder.decode_plain(1) == 0) return 0;
+  const bool negative = decoder.decode_plain(1) != 0;
+  std::int64_t size = 2;
+  if (decoder.decode_plain(1) != 0)
+    size = decoder.decode_plain(1) == 0 ? 1 : std::int64_t{3} + decode_number(decoder);
+  return static_cast<std::int32_t>(negative ? -size : size);
 }
 
 template <class Nested, class Cosines>
@@ -111,8 +138,8 @@ std::vector<std::uint8_t> encode_motion(const KnotModel& model, const Coefficien
   std::int32_t frame = 0;
   for (const BranchSwitch& branch : motion.switches) {
     encode_number(encoder, static_cast<std::uint32_t>(branch.frame - frame));
-    encode_number(encoder, static_cast<std::uint32_t>(branch.driven + 1));
-    for (const std::int32_t turn : branch.quarter_turns) encode_signed(encoder, turn);
+    encoder.encode_plain(static_cast<std::uint32_t>(branch.driven + 1), joint_bits(space));
+    for (const std::int32_t turn : branch.quarter_turns) encode_turn(encoder, turn);
     frame = branch.frame;
   }
   KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
@@ -138,13 +165,13 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
   std::int64_t frame = 0;
   for (std::uint32_t s = 0; s < switches; ++s) {
     frame += decode_number(decoder);
-    const std::uint32_t driven = decode_number(decoder);
+    const std::uint32_t driven = decoder.decode_plain(joint_bits(space));
     if (frame >= take.frames || driven > space.layout.driven.size() || decoder.ran_out()) {
       throw_damaged();
     }
     BranchSwitch branch{
         static_cast<std::int32_t>(frame), static_cast<std::int32_t>(driven) - 1, {}};
-    for (std::int32_t& turn : branch.quarter_turns) turn = decode_signed(decoder);
+    for (std::int32_t& turn : branch.quarter_turns) turn = decode_turn(decoder);
     motion.switches.push_back(branch);
   }
   KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
