@@ -7,6 +7,7 @@
 #include "quant/knot_contexts.h"
 #include "quant/knot_walk.h"
 #include "quant/numbers.h"
+#include "quant/small_number.h"
 
 namespace reprise {
 namespace {
@@ -36,11 +37,18 @@ int expected_scale(const KnotScales& scales, std::size_t i) {
   return column == 0 ? above : first ? left : (left + above) / 2;
 }
 
-template <class Do>
-void for_scales_of(CurveKind kind, int columns, Do&& do_one) {
-  const int first = KnotSlots::first_of(kind) * columns;
-  for (int i = first; i < first + KnotSlots::count_of(kind) * columns; ++i) {
-    do_one(static_cast<std::size_t>(i));
+/// Codes the scales of a kind with `code_bit`, each by what it differs from what is expected.
+template <class CodeBit>
+void code_scales(KnotScales& scales, CurveKind kind, CodeBit&& code_bit) {
+  std::array<SmallNumber, 2> after_zero_or_not;
+  int before = 0;
+  const int first = KnotSlots::first_of(kind) * scales.columns;
+  for (int i = first; i < first + KnotSlots::count_of(kind) * scales.columns; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    const int expected = expected_scale(scales, place);
+    before = after_zero_or_not[before != 0].code(scales.codes[place] - expected, code_bit);
+    scales.codes[place] = static_cast<std::int8_t>(
+        std::clamp(expected + before, KnotScales::least, KnotScales::most));
   }
 }
 
@@ -69,8 +77,10 @@ std::vector<std::uint8_t> KnotModel::prior(bool with_contexts) const {
   for (int kind = 0; kind < curve_kinds; ++kind) {
     encoder.encode_plain(scales_.kinds[kind], 1);
     if (!scales_.kinds[kind]) continue;
-    for_scales_of(static_cast<CurveKind>(kind), scales_.columns, [&](std::size_t i) {
-      encode_signed(encoder, scales_.codes[i] - expected_scale(scales_, i));
+    KnotScales scales = scales_;
+    code_scales(scales, static_cast<CurveKind>(kind), [&](Probability one, bool bit) {
+      encoder.encode(bit, one);
+      return bit;
     });
   }
   encoder.encode_plain(with_contexts, 1);
@@ -88,11 +98,8 @@ bool KnotModel::load_prior(std::span<const std::uint8_t> bytes) {
   for (int kind = 0; kind < curve_kinds; ++kind) {
     scales_.kinds[kind] = decoder.decode_plain(1) != 0;
     if (!scales_.kinds[kind]) continue;
-    for_scales_of(static_cast<CurveKind>(kind), scales_.columns, [&](std::size_t i) {
-      const std::int64_t code = std::int64_t{decode_signed(decoder)} + expected_scale(scales_, i);
-      scales_.codes[i] = static_cast<std::int8_t>(
-          std::clamp<std::int64_t>(code, KnotScales::least, KnotScales::most));
-    });
+    code_scales(scales_, static_cast<CurveKind>(kind),
+                [&](Probability one, bool) { return !decoder.ran_out() && decoder.decode(one); });
   }
   if (decoder.decode_plain(1) != 0) mixer_.load(decoder);
   return !decoder.ran_out();

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "quant/bit_model.h"
+#include "quant/small_number.h"
 #include "refine/pose_metric.h"
 
 namespace reprise {
@@ -30,32 +30,6 @@ std::array<double, Constants::most + 1> make_steps() {
   }
   return steps;
 }
-
-/// Whole numbers around zero: zero, sign, size in unary.
-constexpr int unary_limit = 260;
-
-struct SmallNumber {
-  BitCounter zero, sign;
-  std::array<BitCounter, 6> more;
-
-  template <class CodeBit>
-  int code(int value, CodeBit&& code_bit) {
-    const auto decide = [&](BitCounter& counter, bool bit) {
-      bit = code_bit(std::clamp<Probability>(counter.probability, 64, 65472), bit);
-      counter.update(bit);
-      return bit;
-    };
-    if (!decide(zero, value != 0)) return 0;
-    const bool negative = decide(sign, value < 0);
-    int size = 1;
-    while (size < unary_limit &&
-           decide(more[std::min<std::size_t>(static_cast<std::size_t>(size), more.size()) - 1],
-                  std::abs(value) > size)) {
-      ++size;
-    }
-    return negative ? -size : size;
-  }
-};
 
 /// Codes the steps of all channels with `code_bit(probability, bit)`, which returns the bit,
 /// written or read. False: there are no such steps.

@@ -7,6 +7,7 @@
 
 #include "quant/catmull_rom.h"
 #include "quant/numbers.h"
+#include "quant/small_number.h"
 
 namespace reprise {
 namespace {
@@ -161,8 +162,13 @@ TEST(KnotModel, ScalesBeyondTheirLimitsAreCut) {
   RangeEncoder encoder;
   encode_number(encoder, 1);
   encoder.encode_plain(1, 1);
-  for (int i = 0; i < KnotSlots::levels; ++i)
-    encode_signed(encoder, std::numeric_limits<std::int32_t>::max());
+  std::array<SmallNumber, 2> after_zero_or_not;
+  for (int i = 0; i < KnotSlots::levels; ++i) {
+    after_zero_or_not[i > 0].code(SmallNumber::most, [&](Probability one, bool bit) {
+      encoder.encode(bit, one);
+      return bit;
+    });
+  }
   encoder.encode_plain(0, 2);
   KnotModel loaded;
   ASSERT_TRUE(loaded.load_prior(encoder.finish()));
