@@ -142,7 +142,7 @@ CoefficientSpace extend_space(const CoefficientSpace& base, const MarkerMoments&
 }
 
 double axis_share(double entries, double curve_bits) {
-  constexpr double worth = 0.9;
+  constexpr double worth = 0.7;
   const double share = std::sqrt(worth * entries / std::max(curve_bits, 1.0));
   return std::clamp(share, TrainingConstants::least_axis_share, TrainingConstants::most_axis_share);
 }
