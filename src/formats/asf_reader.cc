@@ -1,19 +1,21 @@
 // ASF: a skeleton in sections; a bone has a direction, a length, axes and degrees of freedom.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "formats/asf_bone.h"
 #include "formats/text_lines.h"
 #include "reprise/formats/motion_file.h"
-#include "reprise/model/kinematics.h"
 
 namespace reprise {
 namespace {
 
 using Eigen::Vector3d;
 
+/// In the order of `Channel`.
 constexpr std::array<std::string_view, 7> channel_words = {"TX", "TY", "TZ", "RX", "RY", "RZ", "L"};
 constexpr double millimetres_per_inch = 25.4;
 
@@ -37,10 +39,7 @@ class AsfReader {
     skeleton_.format = MotionFormat::asf_amc;
     skeleton_.millimetres_per_unit = millimetres_per_inch;
     skeleton_.source_text = std::string(text);
-    Joint root;
-    root.name = "root";
-    joints_.push_back(root);
-    orders_.push_back({0, 1, 2});
+    bones_.emplace_back().name = "root";
   }
 
   Skeleton read() {
@@ -102,15 +101,15 @@ class AsfReader {
   }
 
   void root(std::string_view word, std::string_view rest) {
-    Joint& joint = joints_[0];
+    AsfBone& root = bones_.front();
     if (equal_ignoring_case(word, "order")) {
-      degrees_of_freedom(joint, rest);
+      degrees_of_freedom(root, rest);
     } else if (equal_ignoring_case(word, "axis")) {
-      orders_[0] = order(rest);
+      root.axis_order = order(rest);
     } else if (equal_ignoring_case(word, "position")) {
-      joint.offset = vector(rest, "'position'");
+      root.direction = vector(rest, "'position'");
     } else if (equal_ignoring_case(word, "orientation")) {
-      turns_[0] = vector(rest, "'orientation'");
+      root.axis_angles = vector(rest, "'orientation'");
     }
   }
 
@@ -121,56 +120,54 @@ class AsfReader {
     return *axes;
   }
 
-  void degrees_of_freedom(Joint& joint, std::string_view rest) {
-    joint.channels.clear();
+  void degrees_of_freedom(AsfBone& bone, std::string_view rest) {
+    bone.degrees_of_freedom.clear();
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
       const auto* name = std::ranges::find_if(
           channel_words, [&](std::string_view n) { return equal_ignoring_case(n, word); });
       if (name == channel_words.end())
         lines_.reject("there is no such degree of freedom: " + in_quotes(word));
       const auto channel = static_cast<Channel>(name - channel_words.begin());
-      if (std::ranges::count(joint.channels, channel) > 0) {
+      if (std::ranges::count(bone.degrees_of_freedom, channel) > 0) {
         lines_.reject("a bone has the degree of freedom " + in_quotes(word) + " twice");
       }
-      joint.channels.push_back(channel);
+      bone.degrees_of_freedom.push_back(channel);
     }
   }
 
   void bone(std::string_view word, std::string_view rest) {
     if (equal_ignoring_case(word, "begin")) {
       if (in_bone_) lines_.reject("a bone begins inside of another");
-      if (joints_.size() >= InputLimits::joints) {
+      if (bones_.size() >= InputLimits::joints) {
         lines_.reject("there are more than " + std::to_string(InputLimits::joints) + " bones");
       }
       in_bone_ = true;
-      joints_.emplace_back();
-      orders_.push_back({0, 1, 2});
-      lengths_[joints_.size() - 1] = 1;
+      bones_.emplace_back();
     } else if (!in_bone_) {
       lines_.reject("bone data stands outside of 'begin' and 'end': " + in_quotes(word));
     } else if (equal_ignoring_case(word, "end")) {
       end_bone();
     } else if (equal_ignoring_case(word, "name")) {
-      joints_.back().name = std::string(trimmed(rest));
-      if (joints_.back().name.size() > InputLimits::name_bytes) lines_.reject("a name is too long");
+      bones_.back().name = std::string(trimmed(rest));
+      if (bones_.back().name.size() > InputLimits::name_bytes) lines_.reject("a name is too long");
     } else if (equal_ignoring_case(word, "direction")) {
-      joints_.back().offset = vector(rest, "'direction'");
+      bones_.back().direction = vector(rest, "'direction'");
     } else if (equal_ignoring_case(word, "length")) {
-      lengths_[joints_.size() - 1] = number(rest, "'length'");
+      bones_.back().length = number(rest, "'length'");
     } else if (equal_ignoring_case(word, "axis")) {
-      turns_[joints_.size() - 1] = vector(rest, "'axis'");
-      if (!trimmed(rest).empty()) orders_.back() = order(rest);
+      bones_.back().axis_angles = vector(rest, "'axis'");
+      if (!trimmed(rest).empty()) bones_.back().axis_order = order(rest);
     } else if (equal_ignoring_case(word, "dof")) {
-      degrees_of_freedom(joints_.back(), rest);
+      degrees_of_freedom(bones_.back(), rest);
     }
   }
 
   void end_bone() {
     in_bone_ = false;
-    const Joint& joint = joints_.back();
-    if (joint.name.empty()) lines_.reject("a bone has no name");
-    if (!index_.emplace(joint.name, joints_.size() - 1).second || joint.name == "root") {
-      lines_.reject("there are two bones named " + in_quotes(joint.name));
+    const std::string& name = bones_.back().name;
+    if (name.empty()) lines_.reject("a bone has no name");
+    if (!index_.emplace(name, bones_.size() - 1).second || name == "root") {
+      lines_.reject("there are two bones named " + in_quotes(name));
     }
   }
 
@@ -178,14 +175,14 @@ class AsfReader {
     if (equal_ignoring_case(word, "begin") || equal_ignoring_case(word, "end")) return;
     const std::size_t parent = bone_index(word);
     for (std::string_view child = next_word(rest); !child.empty(); child = next_word(rest)) {
-      const std::size_t joint = bone_index(child);
-      if (joint == 0 || parents_.contains(joint))
+      const std::size_t bone = bone_index(child);
+      if (bone == 0 || parents_.contains(bone))
         lines_.reject(in_quotes(child) + " has two parents");
       if (parent != 0 && !parents_.contains(parent)) {
         lines_.reject(in_quotes(word) + " has children before it has a parent");
       }
-      parents_[joint] = parent;
-      in_order_.push_back(joint);
+      parents_[bone] = parent;
+      in_order_.push_back(bone);
     }
   }
 
@@ -197,33 +194,21 @@ class AsfReader {
     return found->second;
   }
 
-  /// The matrix of three angles, the first axis of the order turning first. The angles are given
-  /// for x, y and z whatever the order.
-  Eigen::Matrix3d matrix_of(std::size_t joint) const {
-    const auto turns = turns_.find(joint);
-    Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
-    if (turns == turns_.end()) return matrix;
-    const double scale = radians_ ? 1.0 : std::numbers::pi / 180.0;
-    for (const int axis : orders_[joint]) {
-      matrix = axis_rotation(axis, turns->second[axis] * scale) * matrix;
-    }
-    return matrix;
-  }
-
   Skeleton finish() {
     if (in_bone_) lines_.reject("the file ends inside of a bone");
-    if (joints_[0].channels.empty()) lines_.reject("the skeleton's root has no 'order'");
-    if (in_order_.size() + 1 != joints_.size()) {
-      for (const auto& [name, joint] : index_) {
-        if (!parents_.contains(joint))
+    if (bones_.front().degrees_of_freedom.empty())
+      lines_.reject("the skeleton's root has no 'order'");
+    if (in_order_.size() + 1 != bones_.size()) {
+      for (const auto& [name, bone] : index_) {
+        if (!parents_.contains(bone))
           lines_.reject("the hierarchy leaves out the bone " + in_quotes(name));
       }
     }
-    std::map<std::size_t, int> place{{0, 0}};
-    add_joint(0, -1);
-    for (const std::size_t joint : in_order_) {
-      place[joint] = static_cast<int>(skeleton_.joints.size());
-      add_joint(joint, place.at(parents_.at(joint)));
+    std::map<std::size_t, int> joints{{0, 0}};  // of bones
+    add_joint(bones_.front(), -1);
+    for (const std::size_t bone : in_order_) {
+      joints[bone] = static_cast<int>(skeleton_.joints.size());
+      add_joint(bones_[bone], joints.at(parents_.at(bone)));
     }
     if (skeleton_.channel_count > static_cast<int>(InputLimits::channels)) {
       lines_.reject("there are more than " + std::to_string(InputLimits::channels) + " channels");
@@ -231,19 +216,9 @@ class AsfReader {
     return std::move(skeleton_);
   }
 
-  void add_joint(std::size_t index, int parent) {
-    Joint joint = joints_[index];
+  void add_joint(const AsfBone& bone, int parent) {
+    Joint joint = joint_of(bone, radians_);
     joint.parent = parent;
-    joint.axis = matrix_of(index);
-    if (index > 0) joint.offset *= lengths_.at(index);
-    // The last axis of the order turns last, so it stands outermost.
-    for (auto axis = orders_[index].rbegin(); axis != orders_[index].rend(); ++axis) {
-      for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-        if (!is_rotation(joint.channels[c]) || axis_of(joint.channels[c]) != *axis) continue;
-        joint.rotation_order.push_back(*axis);
-        joint.rotation_slots.push_back(static_cast<int>(c));
-      }
-    }
     joint.first_channel = skeleton_.channel_count;
     skeleton_.channel_count += static_cast<int>(joint.channels.size());
     skeleton_.joints.push_back(std::move(joint));
@@ -254,13 +229,10 @@ class AsfReader {
   std::string section_;
   bool radians_ = false;
   bool in_bone_ = false;
-  std::vector<Joint> joints_;              // the root, then bones as they come
-  std::vector<std::vector<int>> orders_;   // of each: its axis order
-  std::map<std::size_t, Vector3d> turns_;  // of each: the angles of its axes
-  std::map<std::size_t, double> lengths_;
+  std::vector<AsfBone> bones_;  // the root, then bones as they come
   std::map<std::string, std::size_t, std::less<>> index_;
   std::map<std::size_t, std::size_t> parents_;
-  std::vector<std::size_t> in_order_;
+  std::vector<std::size_t> in_order_;  // of the hierarchy: bones behind their parents
 };
 
 }  // namespace
