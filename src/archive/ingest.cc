@@ -8,13 +8,12 @@
 #include <utility>
 
 #include "archive/clip_links.h"
+#include "archive/coded_take.h"
 #include "archive/input_files.h"
 #include "archive/metadata.h"
 #include "archive/parallel.h"
 #include "archive/space_builder.h"
 #include "archive/survey.h"
-#include "archive/take_layers.h"
-#include "query/error_sketch.h"
 #include "reprise/archive.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"
@@ -26,19 +25,6 @@ namespace {
 /// stopped ingest loses no more than that.
 constexpr std::size_t batch_bytes = 1u << 20;
 constexpr std::size_t batch_takes = 64;
-
-struct CodedTake {
-  std::optional<RejectedInput> rejected;
-  bool kept = false;  ///< within its fidelity
-  TakeRecord record;
-  std::vector<ClipRecord> clips;
-};
-
-std::size_t bytes_of_layers(const TakeRecord& record) {
-  std::size_t bytes = 0;
-  for (const LayerRecord& layer : record.layers) bytes += layer.data.size();
-  return bytes;
-}
 
 class Ingest {
  public:
@@ -133,7 +119,9 @@ class Ingest {
     try {
       produce_in_order(
           takes.size(), options_.jobs,
-          [&](std::size_t i) { return code_take(takes[i], spaces.at(takes[i].file.name)); },
+          [&](std::size_t i) {
+            return code_take(takes[i], spaces.at(takes[i].file.name), plan_, metadata_, options_);
+          },
           [&](std::size_t i, CodedTake coded) {
             if (coded.rejected) {
               report_.rejected.push_back(*coded.rejected);
@@ -142,7 +130,7 @@ class Ingest {
             } else {
               if (stored == 0) store_->begin();
               store_take(takes[i], coded);
-              bytes += bytes_of_layers(coded.record);
+              bytes += coded.bytes();
               if (++stored >= batch_takes || bytes >= batch_bytes) commit();
             }
             tick(takes[i].file.name);
@@ -161,69 +149,6 @@ class Ingest {
     }
     store_->add_take(coded.record, coded.clips);
     pending_.push_back(fresh.file.name);
-  }
-
-  CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment) const {
-    CodedTake coded;
-    try {
-      const auto [take, text] = read_source(fresh, options_.read);
-      FittedTake fitted = assignment.fitted
-                              ? *assignment.fitted
-                              : fit_take(assignment.space->space, assignment.space->model, take,
-                                         fit_options(options_));
-      coded.kept = fitted.kept;
-      if (!coded.kept) return coded;
-      coded.record =
-          make_record(fresh, take, assignment,
-                      make_layers(options_, *assignment.space, take, text, std::move(fitted)));
-      coded.clips = clips_of(fresh, take);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
-      coded.rejected = rejection(fresh.file, error);
-    }
-    return coded;
-  }
-
-  /// As planned, but not yet linked: all takes have to be stored first.
-  std::vector<ClipRecord> clips_of(const FreshTake& fresh, const Take& take) const {
-    const auto planned = plan_.takes.find(fresh.file.name);
-    if (planned == plan_.takes.end())
-      return {whole_take_clip(fresh.outline.content, take.frames())};
-    std::vector<ClipRecord> clips;
-    for (const PlannedClip& part : planned->second) {
-      ClipRecord clip = whole_take_clip(fresh.outline.content, part.frames);
-      if (part.frames != take.frames()) {
-        clip.id = clip_address(
-            content_digest(*take.skeleton, take.channels, part.first_frame, part.frames));
-      }
-      clip.first_frame = part.first_frame;
-      clip.group = part.group;
-      clips.push_back(clip);
-    }
-    return clips;
-  }
-
-  TakeRecord make_record(const FreshTake& fresh, const Take& take,
-                         const SpaceAssignment& assignment, TakeLayers coded) const {
-    TakeRecord record;
-    record.layers = std::move(coded.layers);
-    record.spent = std::move(coded.spent);
-    record.error_quantiles = sketch_distances(coded.distances);
-    record.proportions = assignment.proportions;
-    record.space = assignment.space_id;
-    TakeInfo& info = record.info;
-    info.name = fresh.file.name;
-    info.subject = fresh.outline.subject;
-    if (const TakeMetadata* row = metadata_.find(info.name)) {
-      info.description = row->description;
-      info.tags = row->tags;
-    }
-    info.frames = take.frames();
-    info.fidelity = options_.fidelity;
-    info.text_bytes = fresh.outline.text_bytes;
-    info.error_mm = coded.errors;
-    info.source_digest = fresh.outline.source_digest;
-    return record;
   }
 
   std::filesystem::path archive_;

@@ -1,0 +1,84 @@
+#include "archive/coded_take.h"
+
+#include <utility>
+
+#include "archive/survey.h"
+#include "archive/take_layers.h"
+#include "query/error_sketch.h"
+#include "reprise/error.h"
+
+namespace reprise {
+namespace {
+
+std::vector<ClipRecord> clips_of(const FreshTake& fresh, const Take& take, const ClipPlan& plan) {
+  const auto planned = plan.takes.find(fresh.file.name);
+  if (planned == plan.takes.end()) return {whole_take_clip(fresh.outline.content, take.frames())};
+  std::vector<ClipRecord> clips;
+  for (const PlannedClip& part : planned->second) {
+    ClipRecord clip = whole_take_clip(fresh.outline.content, part.frames);
+    if (part.frames != take.frames()) {
+      clip.id = clip_address(
+          content_digest(*take.skeleton, take.channels, part.first_frame, part.frames));
+    }
+    clip.first_frame = part.first_frame;
+    clip.group = part.group;
+    clips.push_back(clip);
+  }
+  return clips;
+}
+
+TakeRecord make_record(const FreshTake& fresh, const Take& take, const SpaceAssignment& assignment,
+                       const MetadataTable& metadata, const IngestOptions& options,
+                       TakeLayers coded) {
+  TakeRecord record;
+  record.layers = std::move(coded.layers);
+  record.spent = std::move(coded.spent);
+  record.error_quantiles = sketch_distances(coded.distances);
+  record.proportions = assignment.proportions;
+  record.space = assignment.space_id;
+  TakeInfo& info = record.info;
+  info.name = fresh.file.name;
+  info.subject = fresh.outline.subject;
+  if (const TakeMetadata* row = metadata.find(info.name)) {
+    info.description = row->description;
+    info.tags = row->tags;
+  }
+  info.frames = take.frames();
+  info.fidelity = options.fidelity;
+  info.text_bytes = fresh.outline.text_bytes;
+  info.error_mm = coded.errors;
+  info.source_digest = fresh.outline.source_digest;
+  return record;
+}
+
+}  // namespace
+
+std::size_t CodedTake::bytes() const {
+  std::size_t bytes = 0;
+  for (const LayerRecord& layer : record.layers) bytes += layer.data.size();
+  return bytes;
+}
+
+CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, const ClipPlan& plan,
+                    const MetadataTable& metadata, const IngestOptions& options) {
+  CodedTake coded;
+  try {
+    const auto [take, text] = read_source(fresh, options.read);
+    FittedTake fitted = assignment.fitted
+                            ? *assignment.fitted
+                            : fit_take(assignment.space->space, assignment.space->model, take,
+                                       fit_options(options));
+    coded.kept = fitted.kept;
+    if (!coded.kept) return coded;
+    coded.record =
+        make_record(fresh, take, assignment, metadata, options,
+                    make_layers(options, *assignment.space, take, text, std::move(fitted)));
+    coded.clips = clips_of(fresh, take, plan);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
+    coded.rejected = rejection(fresh.file, error);
+  }
+  return coded;
+}
+
+}  // namespace reprise
