@@ -1,101 +1,15 @@
 #include "exact/number_format.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+
+#include "exact/decimal.h"
 
 namespace reprise {
 namespace {
 
-constexpr int most_digits = 18;  // what 64 bits hold for certain
-
-constexpr auto make_powers() {
-  std::array<std::uint64_t, most_digits + 1> powers{};
-  std::uint64_t power = 1;
-  for (auto& entry : powers) entry = power, power *= 10;
-  return powers;
+std::uint64_t decade_size_of(const NumberFormat& format) {
+  return 9 * powers_of_ten[format.digits - 1];
 }
-constexpr auto powers = make_powers();
-
-int count_digits(std::uint64_t value) {
-  int digits = static_cast<int>(std::bit_width(value | 1)) * 1233 >> 12;
-  if (digits <= most_digits && value >= powers[digits]) ++digits;
-  return std::max(digits, 1);
-}
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// A word taken apart: digits x 10^exponent.
-struct Decimal {
-  bool negative = false;
-  std::uint64_t digits = 0;
-  int exponent = 0;
-  int decimals = 0;
-};
-
-std::optional<Decimal> take_apart(std::string_view word) {
-  Decimal decimal;
-  std::size_t i = 0;
-  if (i < word.size() && word[i] == '-') decimal.negative = true, ++i;
-  int digits = 0;
-  bool point = false;
-  for (; i < word.size() && (is_digit(word[i]) || (word[i] == '.' && !point)); ++i) {
-    if (word[i] == '.') {
-      point = true;
-      continue;
-    }
-    if (decimal.digits != 0 || word[i] != '0') {
-      if (++digits > most_digits) return std::nullopt;
-    }
-    decimal.digits = decimal.digits * 10 + static_cast<unsigned>(word[i] - '0');
-    decimal.decimals += point;
-  }
-  if (i < word.size()) {
-    if (word[i] != 'e' || word.size() - i > 6) return std::nullopt;
-    bool negative = false;
-    int exponent = 0;
-    for (++i; i < word.size(); ++i) {
-      if (is_digit(word[i])) {
-        exponent = exponent * 10 + (word[i] - '0');
-      } else if (word[i] == '-') {
-        negative = true;
-      } else if (word[i] != '+') {
-        return std::nullopt;
-      }
-    }
-    decimal.exponent = negative ? -exponent : exponent;
-  }
-  decimal.exponent -= decimal.decimals;
-  return decimal;
-}
-
-constexpr auto make_pairs() {
-  std::array<char, 200> pairs{};
-  for (int i = 0; i < 100; ++i) {
-    pairs[2 * i] = static_cast<char>('0' + i / 10);
-    pairs[2 * i + 1] = static_cast<char>('0' + i % 10);
-  }
-  return pairs;
-}
-constexpr auto pairs = make_pairs();
-
-/// At least `width` digits (at most 20), with zeros in front.
-void append_digits(std::uint64_t value, int width, std::string& text) {
-  std::array<char, 24> buffer;
-  auto* const end = buffer.data() + buffer.size();
-  char* begin = end;
-  while (value >= 10) {
-    const char* const pair = &pairs[2 * (value % 100)];
-    value /= 100;
-    *--begin = pair[1];
-    *--begin = pair[0];
-  }
-  if (value != 0) *--begin = static_cast<char>('0' + value);
-  while (end - begin < width) *--begin = '0';
-  text.append(begin, end);
-}
-
-std::uint64_t decade_size_of(const NumberFormat& format) { return 9 * powers[format.digits - 1]; }
 
 }  // namespace
 
@@ -153,28 +67,30 @@ std::optional<CodedNumber> NumberPrinter::parse(std::string_view word) const {
   } else {
     const int count = count_digits(decimal->digits);
     if (count > format_.digits) return std::nullopt;
-    const std::uint64_t digits = decimal->digits * powers[format_.digits - count];
+    const std::uint64_t digits = decimal->digits * powers_of_ten[format_.digits - count];
     const int in_units = decimal->exponent - (format_.digits - count) + format_.decimals;
     if (in_units >= 0) {
       if (in_units + format_.digits > most_digits) return std::nullopt;
-      magnitude = digits * powers[in_units];
+      magnitude = digits * powers_of_ten[in_units];
       // Of a power of ten, those below it are finer.
       const int fine = fine_digits(static_cast<std::int64_t>(
           std::min<std::uint64_t>(magnitude, NumberGrid::most_magnitude)));
-      if (fine > 0) number.fine = powers[fine] / 2;
+      if (fine > 0) number.fine = powers_of_ten[fine] / 2;
     } else {
       const int finer = -in_units;
-      magnitude = finer > format_.digits ? 0 : (digits + powers[finer] / 2) / powers[finer];
+      magnitude =
+          finer > format_.digits ? 0 : (digits + powers_of_ten[finer] / 2) / powers_of_ten[finer];
       if (magnitude == 0) {
         const int decade = finer - format_.digits;
         if (decade >= tiny_decades) return std::nullopt;
         number.fine = 1 + static_cast<unsigned>(decade) * decade_size_ +
-                      (digits - powers[format_.digits - 1]);
+                      (digits - powers_of_ten[format_.digits - 1]);
       } else {
         const int fine = fine_digits(static_cast<std::int64_t>(magnitude));
         // The smallest of a decade may be next to a larger one's multiple of the unit.
         if (fine != finer && fine != finer + 1) return std::nullopt;
-        number.fine = digits * powers[fine - finer] + powers[fine] / 2 - magnitude * powers[fine];
+        number.fine = digits * powers_of_ten[fine - finer] + powers_of_ten[fine] / 2 -
+                      magnitude * powers_of_ten[fine];
       }
     }
   }
@@ -193,7 +109,7 @@ void NumberPrinter::print(const CodedNumber& number, std::string& text) const {
   const auto magnitude = static_cast<std::uint64_t>(magnitude_of(grid_, number.index));
   if (format_.style == NumberStyle::fixed) {
     if (negative) text.push_back('-');
-    const std::uint64_t one = powers[format_.decimals];
+    const std::uint64_t one = powers_of_ten[format_.decimals];
     append_digits(magnitude / one, 1, text);
     if (format_.decimals == 0) return;
     text.push_back('.');
@@ -204,21 +120,21 @@ void NumberPrinter::print(const CodedNumber& number, std::string& text) const {
     if (number.fine == 0) return text.append(negative ? "-0" : "0"), void();
     const std::uint64_t rest = number.fine - 1;
     const auto decade = static_cast<int>(std::min<std::uint64_t>(rest / decade_size_, 99));
-    return print_general(negative, powers[format_.digits - 1] + rest % decade_size_,
+    return print_general(negative, powers_of_ten[format_.digits - 1] + rest % decade_size_,
                          -decade - 1 - format_.decimals, text);
   }
   const int fine = fine_digits(static_cast<std::int64_t>(magnitude));
   std::uint64_t digits = magnitude;
   int exponent = -format_.decimals;
   if (fine > 0) {
-    digits = magnitude * powers[fine] - powers[fine] / 2 + number.fine;
+    digits = magnitude * powers_of_ten[fine] - powers_of_ten[fine] / 2 + number.fine;
     exponent -= fine;
   }
   const int count = count_digits(digits);
   if (count < format_.digits) {
-    digits *= powers[format_.digits - count];
+    digits *= powers_of_ten[format_.digits - count];
   } else if (count > format_.digits) {
-    digits /= powers[count - format_.digits];
+    digits /= powers_of_ten[count - format_.digits];
   }
   print_general(negative, digits, exponent + count - 1, text);
 }
@@ -231,18 +147,18 @@ void NumberPrinter::print_general(bool negative, std::uint64_t digits, int expon
   if (exponent >= -4 && exponent < format_.digits) {
     const int decimals = count - 1 - exponent;
     if (decimals <= 0) {
-      append_digits(digits * powers[-decimals], 1, text);
+      append_digits(digits * powers_of_ten[-decimals], 1, text);
     } else {
-      append_digits(digits / powers[std::min(decimals, most_digits)], 1, text);
+      append_digits(digits / powers_of_ten[std::min(decimals, most_digits)], 1, text);
       text.push_back('.');
-      append_digits(digits % powers[std::min(decimals, most_digits)], decimals, text);
+      append_digits(digits % powers_of_ten[std::min(decimals, most_digits)], decimals, text);
     }
     return;
   }
-  append_digits(digits / powers[count - 1], 1, text);
+  append_digits(digits / powers_of_ten[count - 1], 1, text);
   if (count > 1) {
     text.push_back('.');
-    append_digits(digits % powers[count - 1], count - 1, text);
+    append_digits(digits % powers_of_ten[count - 1], count - 1, text);
   }
   text.append(exponent < 0 ? "e-" : "e+");
   append_digits(static_cast<unsigned>(exponent < 0 ? -exponent : exponent), format_.exponent_digits,
