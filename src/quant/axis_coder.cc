@@ -1,10 +1,10 @@
 #include "quant/axis_coder.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 
 #include "quant/coded_bits.h"
+#include "quant/magnitude_bins.h"
 
 namespace reprise {
 namespace {
@@ -15,11 +15,10 @@ namespace {
 constexpr std::array<std::uint32_t, BitModelConstants::inputs> contexts = {24, 192, 192, 288, 192};
 constexpr std::uint32_t last_bucket_decision = 24;
 constexpr std::uint32_t first_low_decision = last_bucket_decision + 1;
-constexpr int first_wide_bucket = 4, last_low_bucket = 14;
+constexpr std::uint32_t first_wide_bucket = 4, last_low_bucket = 14;
 constexpr std::uint32_t sign_decision =
-    first_low_decision + static_cast<std::uint32_t>(last_low_bucket - first_wide_bucket) + 1;
+    first_low_decision + last_low_bucket - first_wide_bucket + 1;
 constexpr std::uint32_t decisions = sign_decision + 1;
-constexpr int most_bucket = 59;
 /// What was expected of numbers before there were any (1/64 steps), and the most (the same).
 constexpr std::int64_t first_history = 4 * 64;
 constexpr std::int64_t most_history = std::int64_t{1} << 34;
@@ -31,32 +30,12 @@ std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
   return sizes;
 }
 
-/// Of 0, 1, 2, 3, 4-5, 6-7, 8-11, 12-15, ..
-int bucket_of(std::uint32_t magnitude) {
-  if (magnitude < 4) return static_cast<int>(magnitude);
-  const int octave = static_cast<int>(std::bit_width(magnitude)) - 1;
-  return 2 * octave + static_cast<int>(magnitude >> (octave - 1) & 1);
-}
-
-std::uint32_t bin(std::int64_t size) {
-  if (size < 4) return static_cast<std::uint32_t>(size);
-  return size < 6 ? 4 : size < 10 ? 5 : size < 20 ? 6 : 7;
-}
-
-std::uint32_t fine_bin(std::int64_t size) {
-  if (size < 12) return static_cast<std::uint32_t>(size);
-  const int octave =
-      static_cast<int>(std::bit_width(static_cast<std::uint64_t>(size))) - 1;  // 12 has 3
-  const auto half = static_cast<std::uint32_t>(size >> (octave - 1) & 1);
-  return std::min(12 + 2 * static_cast<std::uint32_t>(octave - 3) + half, 23u);
-}
-
 std::uint32_t sign_of(std::int64_t value) { return value < 0 ? 1 : value > 0 ? 2 : 0; }
 
 /// In steps that are finer by so many half octaves.
 std::int64_t in_finer_steps(std::int64_t size, int half_octaves) {
   const int cut = std::clamp(half_octaves, -40, 40);
-  const std::int64_t odd = (cut & 1) != 0 ? (size * 92682) >> 16 : size;
+  const std::int64_t odd = (cut & 1) != 0 ? (size * root_of_two) >> 16 : size;
   const int octaves = cut >> 1;
   return std::min(octaves < 0 ? odd >> -octaves : odd << octaves, most_history);
 }
@@ -150,9 +129,10 @@ void AxisCoder::expect(std::size_t marker, std::size_t coordinate, std::int64_t 
   const std::int64_t sum = c == 0 ? 2 * beside / 3 + 2 * mean + 2 * here
                                   : beside / 3 + mean + 2 * here + (c == 1 ? 2 * a : a + b);
   const auto kind = static_cast<std::uint32_t>(predictor_.kind(marker));
-  sizes_ = {static_cast<std::uint32_t>(size_class_), (bin(a + b) * 8 + bin(beside / 2)) * 3 + c,
-            fine_bin(here) * 8 + bin(mean), fine_bin(2 * here + mean) * 12 + c * 4 + kind,
-            fine_bin(sum)};
+  sizes_ = {static_cast<std::uint32_t>(size_class_),
+            (magnitude_bin(a + b) * 8 + magnitude_bin(beside / 2)) * 3 + c,
+            fine_magnitude_bin(here) * 8 + magnitude_bin(mean),
+            fine_magnitude_bin(2 * here + mean) * 12 + c * 4 + kind, fine_magnitude_bin(sum)};
   const std::uint32_t both = sign_of(turned) * 3 + sign_of(base);
   signs_ = {0, both * 3 + c, (sign_of(beside_here) * 9 + both) * 3 + c,
             (sign_of(before) * 3 + sign_of(before_that)) * 3 + c,
@@ -169,27 +149,22 @@ std::int32_t AxisCoder::code_number(Io& io, std::int32_t value) {
     return io(chosen, bit);
   };
   const auto magnitude = static_cast<std::uint32_t>(std::abs(std::int64_t{value}));
-  const int bucket = bucket_of(magnitude);
-  int known = 0;
-  while (known < most_bucket &&
-         decide(std::min(static_cast<std::uint32_t>(known), last_bucket_decision), sizes_,
-                bucket > known)) {
-    ++known;
+  const std::uint32_t goal = bucket_of(magnitude);
+  std::uint32_t index = 0;
+  while (index < last_bucket &&
+         decide(std::min(index, last_bucket_decision), sizes_, goal > index)) {
+    ++index;
   }
-  auto size = static_cast<std::uint32_t>(known);
-  if (known >= first_wide_bucket) {
-    const int low_bits = known / 2 - 1;
-    size = 2u | (size & 1);
-    for (int i = low_bits - 1; i >= 0; --i) {
-      const bool bit = (magnitude >> i & 1) != 0;
-      const auto low =
-          static_cast<std::uint32_t>(std::min(known, last_low_bucket) - first_wide_bucket);
-      size = size << 1 | (i == low_bits - 1 ? decide(first_low_decision + low, sizes_, bit)
-                                            : io.plain(bit, 1) != 0);
-    }
+  if (index == 0) return 0;
+  const auto [first, bits] = bucket(index);
+  std::uint32_t above = 0;  // above the bucket's first
+  for (int i = bits - 1; i >= 0; --i) {
+    const bool bit = (magnitude >> i & 1) != 0;
+    const std::uint32_t low = std::min(index, last_low_bucket) - first_wide_bucket;
+    above = above << 1 |
+            (i == bits - 1 ? decide(first_low_decision + low, sizes_, bit) : io.plain(bit, 1) != 0);
   }
-  if (size == 0) return 0;
-  const auto coded = static_cast<std::int32_t>(size);
+  const auto coded = static_cast<std::int32_t>(first + above);
   return decide(sign_decision, signs_, value < 0) ? -coded : coded;
 }
 

@@ -14,6 +14,7 @@
 #include "quant/bit_model.h"
 #include "quant/knot_contexts.h"
 #include "quant/knot_order.h"
+#include "quant/magnitude_bins.h"
 #include "quant/trajectory_codec.h"
 
 namespace reprise {
@@ -64,21 +65,6 @@ class KnotWalk : KnotWalkConstants {
   }
 
  private:
-  /// Small numbers apart, large ones by their logarithm.
-  static std::uint32_t bin(int magnitude) {
-    if (magnitude < 4) return static_cast<std::uint32_t>(magnitude);
-    return magnitude < 6 ? 4 : magnitude < 10 ? 5 : magnitude < 20 ? 6 : 7;
-  }
-
-  static std::uint32_t fine_bin(int magnitude) {
-    if (magnitude < 12) return static_cast<std::uint32_t>(magnitude);
-    int bits = 0;
-    while (magnitude >> (bits + 1)) ++bits;  // 12 has 3
-    const int half = magnitude >> (bits - 1) & 1;
-    return static_cast<std::uint32_t>(
-        std::min<int>(12 + 2 * (bits - 3) + half, KnotContexts::fine_magnitudes - 1));
-  }
-
   static int sign_code(int value) { return value < 0 ? 1 : value > 0 ? 2 : 0; }
 
   /// One past the last trajectory that has a knot in this group.
@@ -137,12 +123,14 @@ class KnotWalk : KnotWalkConstants {
         u(std::clamp(scales_.at(shape_, group.slot, column) - shape_.step_half_octaves + scale_bias,
                      0, static_cast<int>(KnotContexts::scales) - 1));
     base_[0] = expected * KnotContexts::slots + slot;
-    base_[1] = (slot * KnotContexts::magnitudes + bin(2 * a + a2)) * KnotContexts::magnitudes +
-               bin(parents);
-    base_[2] = (bin(neighbours) * KnotContexts::magnitudes + bin(a)) * KnotContexts::magnitudes +
-               bin(parents);
-    base_[3] =
-        expected / 2 * KnotContexts::fine_magnitudes + fine_bin(2 * a + a2 + parents + neighbours);
+    base_[1] =
+        (slot * KnotContexts::magnitudes + magnitude_bin(2 * a + a2)) * KnotContexts::magnitudes +
+        magnitude_bin(parents);
+    base_[2] = (magnitude_bin(neighbours) * KnotContexts::magnitudes + magnitude_bin(a)) *
+                   KnotContexts::magnitudes +
+               magnitude_bin(parents);
+    base_[3] = expected / 2 * KnotContexts::fine_magnitudes +
+               fine_magnitude_bin(2 * a + a2 + parents + neighbours);
     base_[4] = slot * KnotContexts::columns + column_slot;
     const int signs[4] = {sign_code(before), sign_code(left), sign_code(right), sign_code(beside)};
     if constexpr (requires { io_.wanted(frame, column); }) {

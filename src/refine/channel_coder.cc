@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdlib>
 
-#include "quant/catmull_rom.h"
 #include "quant/coded_bits.h"
+#include "quant/magnitude_bins.h"
+#include "refine/knot_sizes.h"
 
 namespace reprise {
 namespace {
@@ -19,7 +19,6 @@ constexpr std::uint32_t bins = 24;  ///< of an expected magnitude
 constexpr std::uint32_t few_bins = 8;
 constexpr std::uint32_t most_channel = 255;  ///< later channels share contexts
 constexpr int activity_decay = 3;            ///< an eighth a channel
-constexpr std::uint32_t last_bucket = 59;    ///< of numbers up to 2^29
 /// Is it beyond bucket 0, 1, ..; those from here on share their counters.
 constexpr std::uint32_t decisions = 31;
 constexpr std::uint32_t sign_decision = decisions, mantissa_decisions = decisions + 1;
@@ -27,62 +26,6 @@ constexpr std::uint32_t kinds = decisions + 1 + 2 * decisions;
 constexpr std::array<std::uint32_t, BitModelConstants::inputs> context_counts = {
     bins * level_slots, bins* few_bins, bins* few_bins, bins* few_bins* few_bins,
     (most_channel + 1) * level_slots};
-
-/// Buckets 0, 1, 2, 3, 4-5, 6-7, 8-11, 12-15, ..: the first number of each, and its bits.
-struct Bucket {
-  std::int32_t first;
-  int bits;
-};
-constexpr Bucket bucket(std::uint32_t index) {
-  if (index < 4) return {static_cast<std::int32_t>(index), 0};
-  const int bits = static_cast<int>(index - 2) / 2;
-  return {static_cast<std::int32_t>((2u + (index & 1u)) << bits), bits};
-}
-constexpr std::uint32_t bucket_of(std::int32_t magnitude) {
-  if (magnitude < 4) return static_cast<std::uint32_t>(magnitude);
-  const int width = std::bit_width(static_cast<std::uint32_t>(magnitude));
-  return static_cast<std::uint32_t>(2 * (width - 2) + 2 + ((magnitude >> (width - 2)) & 1));
-}
-static_assert(bucket_of(bucket(17).first) == 17 && bucket_of(4) == 4 && bucket_of(6) == 5);
-
-/// Magnitudes as contexts see them: in steps of offset 0, with this many bits after the point.
-constexpr int size_bits = 20;
-constexpr std::int32_t most_size = 1 << 16;
-constexpr std::uint64_t root_of_two = 92682;  ///< x 65536
-
-std::uint64_t finer(std::uint64_t size, int half_octaves) {
-  if (half_octaves & 1) size = (size * root_of_two) >> 16;
-  const int octaves = half_octaves >> 1;
-  return octaves >= 0 ? size << octaves : size >> -octaves;
-}
-
-/// Logarithmic bins of sums.
-std::uint32_t bin(std::uint64_t sum, std::uint32_t count, int per_octave) {
-  if (sum == 0) return 0;
-  const auto width = static_cast<int>(std::bit_width(sum));
-  auto result = static_cast<std::uint32_t>(width * per_octave);
-  if (per_octave == 2 && width > 1) result += static_cast<std::uint32_t>(sum >> (width - 2) & 1);
-  return std::min(result, count - 1);
-}
-
-/// Sizes of knots, frames x channels, with zeros where the neighbours of a knot may lie outside: in
-/// two coarsest strides before the first frame, one after the last, and two channels before the
-/// first.
-class KnotSizes {
- public:
-  KnotSizes(Index frames, Index channels, int levels)
-      : margin_(Index{2} << levels),
-        values_(Values::Zero(frames + margin_ + margin_ / 2, channels + 2)) {}
-
-  /// Of a channel from -2 on: its first frame.
-  const std::uint64_t* column(Index channel) const { return &values_(margin_, channel + 2); }
-  std::uint64_t* column(Index channel) { return &values_(margin_, channel + 2); }
-
- private:
-  using Values = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic>;
-  Index margin_;
-  Values values_;
-};
 
 template <class Io>
 class Walk {
@@ -142,7 +85,7 @@ class Walk {
     knots_(f, channel_) = code_value(place, knots_(f, channel_));
     const auto magnitude = static_cast<std::uint64_t>(
         std::min<std::int64_t>(std::abs(std::int64_t{knots_(f, channel_)}), most_size));
-    own_[f] = finer(magnitude << size_bits, -offset);
+    own_[f] = in_finer_steps(magnitude << size_bits, -offset);
     activity_[f] += own_[f];
     activity_[f] -= activity_[f] >> activity_decay;
   }
@@ -152,7 +95,7 @@ class Walk {
   Contexts expected_size(const Place& place, int offset) const {
     const auto [f, step, apart, slot] = place;
     const auto in_bins = [&](std::uint64_t sum, std::uint32_t count, int per_octave) {
-      return bin(finer(sum, offset) >> size_bits, count, per_octave);
+      return size_bin(in_finer_steps(sum, offset) >> size_bits, count, per_octave);
     };
     const auto around = [&place](const std::uint64_t* sizes) {  // clang 14: not the binding
       return 2 * sizes[place.frame] + sizes[place.frame - place.step] +
@@ -194,7 +137,7 @@ class Walk {
   }
 
   std::int32_t code_value(const Place& place, std::int32_t value) {
-    const std::int32_t magnitude = std::abs(value);
+    const auto magnitude = static_cast<std::uint32_t>(std::abs(value));
     const std::uint32_t goal = bucket_of(magnitude);
     std::uint32_t index = 0;
     while (index < last_bucket &&
@@ -203,18 +146,16 @@ class Walk {
     }
     if (index == 0) return 0;
     const Bucket in = bucket(index);
-    const std::int32_t rest = magnitude - in.first;
-    std::int32_t known = 0;
+    const std::uint32_t rest = magnitude - in.first;
+    std::uint32_t known = 0;
     int left = in.bits;
     for (std::uint32_t modelled = 0; modelled < 2 && left > 0; ++modelled) {
       --left;
       const std::uint32_t kind = mantissa_decisions + 2 * std::min(index, decisions - 1) + modelled;
-      known = known << 1 |
-              static_cast<std::int32_t>(decide(kind, size_contexts_, (rest >> left & 1) != 0));
+      known = known << 1 | decide(kind, size_contexts_, (rest >> left & 1) != 0);
     }
-    known = known << left |
-            static_cast<std::int32_t>(io_.plain(static_cast<std::uint32_t>(rest), left));
-    const std::int32_t result = in.first + known;
+    known = known << left | io_.plain(rest, left);
+    const auto result = static_cast<std::int32_t>(in.first + known);
     return decide(sign_decision, expected_sign(place), value < 0) ? -result : result;
   }
 
