@@ -116,12 +116,4 @@ double unlikeness(const MotionForm& a, const MotionForm& b, const LikenessWeight
 double mean_joint_distance(const PostureTrack& a, const Stretch& in_a, const PostureTrack& b,
                            const Stretch& in_b);
 
-/// Where in `target` the rows of `query` fit best, at half to twice the speed: row indices, half
-/// open. Without a fit (fewer rows than half the query's) all of the target.
-struct RowRange {
-  long begin = 0;
-  long end = 0;
-};
-RowRange best_fit(const BodyPostures& query, const BodyPostures& target);
-
 }  // namespace reprise

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "query/time_warp.h"
+
 namespace reprise {
 namespace {
 
@@ -43,8 +45,9 @@ Stretch fitted(const Example& example, const PostureTrack& track, const Stretch&
   const int query_rows = std::clamp(rows_of(about.seconds()), 2, most_fitted_rows);
   const int target_rows = std::clamp(rows_of(region.seconds()), query_rows, 2 * query_rows);
   constexpr float bearing = LikenessConstants::bearing_taken_out;
-  const RowRange fit = best_fit(postures(*example.track, example.stretch, query_rows, bearing),
-                                postures(track, region, target_rows, bearing));
+  const ColumnRange fit =
+      best_fit(row_distances(postures(*example.track, example.stretch, query_rows, bearing),
+                             postures(track, region, target_rows, bearing)));
   const double step = region.seconds() / (target_rows - 1);
   return {region.begin + static_cast<double>(fit.begin) * step,
           region.begin + static_cast<double>(fit.end - 1) * step};

@@ -88,4 +88,39 @@ std::vector<std::pair<long, long>> warping_path(const CostMatrix& costs) {
   return path;
 }
 
+ColumnRange best_fit(const CostMatrix& costs) {
+  assert(costs.rows() > 0);
+  const long rows = costs.rows(), columns = costs.cols();
+  // Steps (1,1), (1,2) and (2,1): half to twice the speed. Every row counts once.
+  struct Fit {
+    float cost;
+    long begin;
+  };
+  constexpr float never = 1e30f;
+  std::vector<Fit> fits(static_cast<std::size_t>(rows * columns), {never, 0});
+  const auto at = [&](long i, long j) -> Fit& {
+    return fits[static_cast<std::size_t>(i * columns + j)];
+  };
+  for (long j = 0; j < columns; ++j) at(0, j) = {costs(0, j), j};
+  for (long i = 1; i < rows; ++i) {
+    for (long j = 1; j < columns; ++j) {
+      Fit best = at(i - 1, j - 1);
+      if (j > 1 && at(i - 1, j - 2).cost < best.cost) best = at(i - 1, j - 2);
+      if (i > 1 && at(i - 2, j - 1).cost + costs(i - 1, j) < best.cost) {
+        best = {at(i - 2, j - 1).cost + costs(i - 1, j), at(i - 2, j - 1).begin};
+      }
+      if (best.cost < never) at(i, j) = {best.cost + costs(i, j), best.begin};
+    }
+  }
+  ColumnRange range{0, columns};
+  float least = never;
+  for (long j = 0; j < columns; ++j) {
+    if (at(rows - 1, j).cost < least) {
+      least = at(rows - 1, j).cost;
+      range = {at(rows - 1, j).begin, j + 1};
+    }
+  }
+  return range;
+}
+
 }  // namespace reprise

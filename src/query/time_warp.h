@@ -19,4 +19,14 @@ double warped_cost(const CostMatrix& costs);
 /// Its places: (row, column).
 std::vector<std::pair<long, long>> warping_path(const CostMatrix& costs);
 
+/// Columns, half open.
+struct ColumnRange {
+  long begin = 0;
+  long end = 0;
+};
+/// Which columns all rows, at least one, fit best, at half to twice their speed: the cheapest path
+/// from the first row to the last that begins and ends in any column. Without one (fewer columns
+/// than half the rows) all columns.
+ColumnRange best_fit(const CostMatrix& costs);
+
 }  // namespace reprise

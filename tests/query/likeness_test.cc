@@ -133,7 +133,7 @@ TEST(BestFit, APartIsFoundWhereItIs) {
   const int frames = static_cast<int>(track.frames());
   const BodyPostures target = postures(track, whole(track), frames, 0.85f);
   const BodyPostures part = target.middleRows(frames / 3, 15);
-  const RowRange found = best_fit(part, target);
+  const ColumnRange found = best_fit(row_distances(part, target));
   EXPECT_NEAR(static_cast<double>(found.begin), frames / 3, 1);
   EXPECT_NEAR(static_cast<double>(found.end), frames / 3 + 15, 1);
 }
@@ -141,7 +141,7 @@ TEST(BestFit, APartIsFoundWhereItIs) {
 TEST(BestFit, AQueryThatCannotFitTakesAllOfTheTarget) {
   const PostureTrack track = posture_track(library().takes[1]);
   const BodyPostures rows = postures(track, whole(track), 40, 0.85f);
-  const RowRange found = best_fit(rows, rows.topRows(5));
+  const ColumnRange found = best_fit(row_distances(rows, rows.topRows(5)));
   EXPECT_EQ(found.begin, 0);
   EXPECT_EQ(found.end, 5);
 }
