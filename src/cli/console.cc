@@ -39,14 +39,13 @@ void Console::result(std::string_view text) const {
 }
 
 void Console::document(const Json& json) const {
-  if (!options_.json) return;
-  // A name need not be UTF-8, a document must be.
-  to_stdout(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (options_.json) to_stdout(text_of(json));
 }
 
 void Console::bytes(std::string_view bytes) const { to_stdout(bytes); }
 
 void Console::to_stdout(std::string_view text) const {
+  withhold_interruption_document();
   errno = 0;
   const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
   if (written < text.size() && stdout_error_ == 0) stdout_error_ = errno;
@@ -79,6 +78,11 @@ void Console::flush() const {
     throw Error(ErrorCode::limit, "the file that stdout goes to reached the limit of its size");
   }
   throw Error(ErrorCode::failed, "the result could not be written to stdout");
+}
+
+std::string text_of(const Json& document) {
+  // A name need not be UTF-8, a document must be.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 ProgressSink progress_sink(ProgressBar& bar) {

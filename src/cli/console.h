@@ -59,6 +59,9 @@ class Console {
   bool bold_messages_ = false;
 };
 
+/// A document as --json prints it.
+std::string text_of(const Json& document);
+
 /// A sink that draws the progress and asks to stop once a signal has come.
 ProgressSink progress_sink(ProgressBar& bar);
 

@@ -49,8 +49,10 @@ Json error_document(const Error& error) {
   return {{"error", fields}};
 }
 
+std::string report_line(const Error& error) { return "reprise: " + printable(error.what()); }
+
 ExitCode report(const Error& error, const Console& console) {
-  console.complaint("reprise: " + printable(error.what()));
+  console.complaint(report_line(error));
   console.document(error_document(error));
   return exit_code(error.code());
 }

@@ -13,6 +13,9 @@ ExitCode exit_code(ErrorCode code);
 /// {"error":{"code","name","message"[,"file"][,"line"][,"advice"]}}
 Json error_document(const Error& error);
 
+/// The sentence that is told on stderr.
+std::string report_line(const Error& error);
+
 /// Tells it on stderr, and with --json on stdout; returns the exit code.
 ExitCode report(const Error& error, const Console& console);
 

@@ -1,10 +1,18 @@
-// Ctrl-C and a polite kill, for commands that have something to finish first.
+// Ctrl-C and a polite kill: they end a command at once, unless it has something to finish first.
 #pragma once
+
+#include <string>
 
 namespace reprise::cli {
 
-/// While it lives, SIGINT and SIGTERM set a flag instead of ending the process. The second signal
-/// of a kind ends it at once. One at a time.
+/// From here on SIGINT and SIGTERM end the process at once with exit code 130, `message` on stderr
+/// and `document` on stdout. A signal that the process was started to ignore stays ignored.
+void end_when_interrupted(const std::string& message, const std::string& document);
+/// Part of a result is on stdout: a document after it would make both unreadable.
+void withhold_interruption_document();
+
+/// While it lives, the first SIGINT or SIGTERM sets a flag instead of ending the process; the
+/// second ends it at once. One at a time.
 class InterruptionGuard {
  public:
   InterruptionGuard();

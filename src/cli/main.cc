@@ -1,4 +1,6 @@
 // The command `reprise`: finds the command asked for, runs it, and turns errors into exit codes.
+#include <unistd.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -9,6 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
+#include "cli/interruption.h"
 #include "cli/suggestion.h"
 #include "cli/text.h"
 
@@ -114,6 +117,11 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   ConsoleOptions options;
   options.json = asks_for_json(argc, argv);
+  const Error interrupted(ErrorCode::interrupted, "interrupted");
+  // Over the progress bar, where there is one.
+  end_when_interrupted(
+      (isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + report_line(interrupted) + "\n",
+      options.json ? text_of(error_document(interrupted)) : std::string());
   try {
     return dispatch(argc, argv, options);
   } catch (const std::exception& exception) {

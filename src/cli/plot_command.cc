@@ -1,5 +1,6 @@
 #include "cli/plot_command.h"
 
+#include "cli/interruption.h"
 #include "cli/json_output.h"
 #include "cli/output_file.h"
 #include "cli/plot_image.h"
@@ -127,7 +128,10 @@ ExitCode PlotCommand::run(Console& console) {
     console.bytes(picture.png);
     return exit_done;
   }
-  write_file_atomically(file_, picture.png, overwrite_);
+  {
+    const InterruptionGuard guard;  // leaves no half of a file
+    write_file_atomically(file_, picture.png, overwrite_);
+  }
   console.result(picture.text);
   console.document(picture.document);
   return exit_done;

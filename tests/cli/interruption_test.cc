@@ -1,6 +1,9 @@
 // An ingest that is stopped or killed leaves an archive that is valid, and is carried on by the
 // same command.
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <thread>
@@ -63,6 +66,62 @@ TEST_F(InterruptionTest, StoppedPolitely) {
     EXPECT_FALSE(fs::exists(folder() / "lib.rpz-journal"));
     expect_carried_on();
   }
+}
+
+/// A command that waits for what comes through a pipe: it was begun for certain, and is not done.
+class WaitingCommandTest : public CommandTest {
+ protected:
+  WaitingCommandTest() {
+    output({"synth", "takes", "--takes", "2", "--seconds", "2", "--subjects", "1"});
+    output({"ingest", "lib.rpz", "takes", "--no-repeats"});
+    take_ = take_names().front();
+    mkfifo((folder() / "example.bvh").c_str(), 0600);
+  }
+
+  /// Runs a command that reads example.bvh, sends it the signal, and then the take.
+  Outcome interrupted(const std::vector<std::string>& words, int number) const {
+    RunningCommand running(folder(), words);
+    const int pipe = open((folder() / "example.bvh").c_str(), O_WRONLY);  // waits for the reader
+    running.signal(number);
+    write_text(pipe, read_file(folder() / "takes" / (take_ + ".bvh")));
+    return running.wait();
+  }
+
+ private:
+  static void write_text(int pipe, const std::string& text) {
+    const auto old = ::signal(SIGPIPE, SIG_IGN);
+    for (std::size_t at = 0; at < text.size();) {
+      const ssize_t written = write(pipe, text.data() + at, text.size() - at);
+      if (written <= 0) break;
+      at += static_cast<std::size_t>(written);
+    }
+    close(pipe);
+    ::signal(SIGPIPE, old);
+  }
+
+  std::string take_;
+};
+
+TEST_F(WaitingCommandTest, EndsWith130WhereItHasNothingToFinish) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const Outcome compare =
+        interrupted({REPRISE_COMMAND, "compare", "example.bvh", "example.bvh"}, number);
+    EXPECT_EQ(compare.exit_code, 130);
+    EXPECT_EQ(compare.err, "reprise: interrupted\n");
+    const Outcome search = interrupted(
+        {REPRISE_COMMAND, "search", "lib.rpz", "--like", "example.bvh", "--json"}, number);
+    EXPECT_EQ(search.exit_code, 130);
+    const auto error = nlohmann::json::parse(search.out).at("error");
+    EXPECT_EQ(error.at("code"), 130);
+    EXPECT_EQ(error.at("name"), "interrupted");
+  }
+}
+
+TEST_F(WaitingCommandTest, GoesOnWhereTheSignalIsIgnored) {
+  const Outcome outcome = interrupted(
+      {"sh", "-c", "trap '' INT; exec \"$0\" search lib.rpz --like example.bvh", REPRISE_COMMAND},
+      SIGINT);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
 }  // namespace
