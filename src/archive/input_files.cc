@@ -1,8 +1,10 @@
 #include "archive/input_files.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "reprise/error.h"
 
@@ -11,11 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of the folder that the file is named in, also where the file is a link to another one.
 std::string folder_name(const fs::path& file) {
   std::error_code ignored;
-  fs::path full = fs::weakly_canonical(file, ignored);
-  if (ignored) full = file;
-  return full.parent_path().filename().generic_string();
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  fs::path full = fs::weakly_canonical(folder, ignored);
+  if (ignored) full = folder;
+  return full.filename().generic_string();
 }
 
 /// Why what a folder holds under this name cannot be taken in; empty where it can, or is not meant.
@@ -64,6 +68,36 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
   return found;
 }
 
+/// A file, and what its names are chosen by: it may be reached in several ways.
+struct FoundFile {
+  fs::path full;  ///< the file itself
+  bool is_link = false;
+  std::ptrdiff_t missing_folders = 0;  ///< the fewer, the more folders `relative` has
+  fs::path relative;                   ///< path under the argument
+  fs::path path;
+
+  auto order() const { return std::tie(full, is_link, missing_folders, relative, path); }
+};
+
+/// Each file once: by a name of its own rather than a link's, and with the most folders in it. The
+/// order of arguments, and that of a folder's entries, do not matter.
+std::vector<FoundFile> files_of(const std::vector<fs::path>& arguments,
+                                std::vector<RejectedInput>& rejected) {
+  std::vector<FoundFile> files;
+  for (const fs::path& argument : arguments) {
+    for (auto& [path, relative] : files_under(argument, rejected)) {
+      std::error_code ignored;
+      const fs::path full = fs::weakly_canonical(path, ignored);
+      files.push_back({full.empty() ? path : full, fs::is_symlink(path, ignored),
+                       -std::distance(relative.begin(), relative.end()), relative, path});
+    }
+  }
+  std::ranges::sort(files, {}, &FoundFile::order);
+  const auto repeated = std::ranges::unique(files, {}, &FoundFile::full);
+  files.erase(repeated.begin(), repeated.end());
+  return files;
+}
+
 std::string name_without_extension(const fs::path& path) {
   fs::path name = path;
   return name.replace_extension().generic_string();
@@ -74,14 +108,8 @@ std::string name_without_extension(const fs::path& path) {
 InputFiles find_input_files(const std::vector<fs::path>& paths, const std::string& prefix) {
   InputFiles result;
   std::map<std::string, std::vector<std::pair<fs::path, fs::path>>> by_name;
-  std::set<fs::path> seen;
-  for (const fs::path& argument : paths) {
-    for (auto& [path, relative] : files_under(argument, result.rejected)) {
-      std::error_code ignored;
-      const fs::path full = fs::weakly_canonical(path, ignored);
-      if (!seen.insert(full.empty() ? path : full).second) continue;
-      by_name[name_without_extension(relative)].emplace_back(path, relative);
-    }
+  for (const FoundFile& file : files_of(paths, result.rejected)) {
+    by_name[name_without_extension(file.relative)].emplace_back(file.path, file.relative);
   }
   std::set<std::string> used;
   for (auto& [name, files] : by_name) {

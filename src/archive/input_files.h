@@ -21,8 +21,9 @@ struct InputFiles {
 };
 
 /// Files are taken as they are, folders searched through for motion files; links to folders are not
-/// followed. Folders below that cannot be read, and links to no file, are rejected. Throws Error
-/// (failed) for a path that is not there or cannot be read.
+/// followed. A file that is reached in several ways is one input, whatever the order of `paths`.
+/// Folders below that cannot be read, and links to no file, are rejected. Throws Error (failed) for
+/// a path that is not there or cannot be read.
 InputFiles find_input_files(const std::vector<std::filesystem::path>& paths,
                             const std::string& prefix);
 

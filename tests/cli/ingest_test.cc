@@ -49,6 +49,31 @@ TEST_F(IngestTest, OrderOfArgumentsDoesNotChangeTheContent) {
   EXPECT_EQ(content_digest("forth.rpz"), content_digest("back.rpz"));
 }
 
+TEST_F(IngestTest, AFileGivenTwiceHasOneNameInAnyOrder) {
+  make_library();
+  const std::string file = "takes/" + take_names().front() + ".bvh";
+  output({"ingest", "forth.rpz", "takes", file});
+  output({"ingest", "back.rpz", file, "takes"});
+  EXPECT_EQ(take_names("forth.rpz"), take_names());
+  EXPECT_EQ(content_digest("back.rpz"), content_digest("forth.rpz"));
+}
+
+TEST_F(IngestTest, ALinkIsATakeOfItsFolderAndNeverHidesItsFile) {
+  make_library();
+  const std::string file = "../../takes/" + take_names().front() + ".bvh";
+  fs::create_directories(folder() / "picked/anna");
+  fs::create_symlink(file, folder() / "picked/anna/best.bvh");
+  EXPECT_EQ(document({"ingest", "picked.rpz", "picked"}).at("added").size(), 1U);
+  const auto take = document({"list", "picked.rpz"}).at("takes").at(0);
+  EXPECT_EQ(take.at("name"), "anna/best");
+  EXPECT_EQ(take.at("subject"), "anna");
+  // Whichever of the two a folder names first.
+  const fs::path real = folder() / "takes" / (take_names().front() + ".bvh");
+  fs::create_symlink(real.filename(), real.parent_path() / "a_link.bvh");
+  fs::create_symlink(real.filename(), real.parent_path() / "z_link.bvh");
+  EXPECT_EQ(document({"ingest", "lib.rpz", "takes"}).at("added").size(), 0U);
+}
+
 TEST_F(IngestTest, OtherContentUnderTheSameNameNeedsReplace) {
   make_library();
   const std::string digest = content_digest();
