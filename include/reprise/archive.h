@@ -269,7 +269,8 @@ class Archive {
                                        const ProgressSink& progress = {}) const;
 
   /// Reads and decodes everything; with `against`, measures each take against its source in that
-  /// folder and holds it to its fidelity.
+  /// folder, in the length unit that it is stored with unless `read` says another, and holds it to
+  /// its fidelity.
   VerifyReport verify(const std::optional<std::filesystem::path>& against = std::nullopt,
                       const ReadOptions& read = {}, const ProgressSink& progress = {}) const;
 

@@ -31,7 +31,8 @@ SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
     skeleton->asf_name = asf.stem().string();
     take = read_amc(text, name, std::move(skeleton), options.amc_frame_rate);
   } else {
-    take = read_bvh(text, name, options.bvh_millimetres_per_unit);
+    take = read_bvh(text, name,
+                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit));
   }
   digest = hexadecimal(hasher.finish());
   take.name = file.name;

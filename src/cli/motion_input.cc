@@ -31,7 +31,9 @@ std::string read_stdin() {
 Take read_motion_from_stdin(const std::optional<std::filesystem::path>& asf,
                             const ReadOptions& options) {
   const std::string text = read_stdin();
-  if (!asf) return read_bvh(text, "stdin", options.bvh_millimetres_per_unit);
+  if (!asf)
+    return read_bvh(text, "stdin",
+                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit));
   auto skeleton = std::make_shared<const Skeleton>(read_asf(read_whole_file(*asf), asf->string()));
   return read_amc(text, "stdin", std::move(skeleton), options.amc_frame_rate);
 }

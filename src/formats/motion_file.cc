@@ -80,7 +80,8 @@ Take read_motion_file(const fs::path& path, const ReadOptions& options) {
   }
   const std::string text = read_whole_file(path);
   if (has_extension(path, ".bvh")) {
-    return read_bvh(text, path.string(), options.bvh_millimetres_per_unit);
+    return read_bvh(text, path.string(),
+                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit));
   }
   const fs::path asf = options.asf ? *options.asf : find_asf(path);
   auto skeleton = std::make_shared<Skeleton>(read_asf(read_whole_file(asf), asf.string()));

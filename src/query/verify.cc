@@ -1,4 +1,6 @@
 // Reads and decodes everything, and holds it against its sources where they are at hand.
+#include <fmt/format.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -71,8 +73,7 @@ std::string broken_promise(const LayerRecord& layer, const PositionErrors& error
   const double measured = mean ? errors.mean : errors.max;
   if (measured <= layer.limit_mm) return {};
   return std::string("its ") + (mean ? "mean" : "greatest") + " error is " +
-         std::to_string(measured) + " mm, more than the " + std::to_string(layer.limit_mm) +
-         " mm of its fidelity";
+         fmt::format("{:.4g} mm, more than the {:g} mm of its fidelity", measured, layer.limit_mm);
 }
 
 /// Decodes every layer of a take, and holds each against the source where there is one.
@@ -81,8 +82,12 @@ class TakeCheck {
   TakeCheck(OpenArchive& archive, TakeRecord record)
       : archive_(archive), record_(std::move(record)) {}
 
-  std::vector<Damage> run(const fs::path* source, const ReadOptions& read) {
+  std::vector<Damage> run(const fs::path* source, ReadOptions read) {
     std::optional<Take> original;
+    const auto& proportions = archive_.proportions(record_.proportions);
+    if (!read.bvh_millimetres_per_unit) {
+      read.bvh_millimetres_per_unit = proportions.millimetres_per_unit;
+    }
     try {
       if (source != nullptr) original = read_motion_file(*source, read);
     } catch (const Error& error) {

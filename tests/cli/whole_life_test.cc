@@ -80,6 +80,16 @@ TEST_F(CommandTest, SourcesAreFoundByTheEndsOfNames) {
   EXPECT_EQ(report.at("damaged")[0].at("id"), "s01_01");
 }
 
+TEST_F(CommandTest, SourcesAreMeasuredInTheUnitTheyWereStoredIn) {
+  output({"synth", "takes", "--takes", "2", "--seconds", "2", "--subjects", "2"});
+  output({"ingest", "lib.rpz", "takes/s01", "--unit-mm", "25.4"});
+  output({"ingest", "lib.rpz", "takes/s02"});
+  output({"verify", "lib.rpz", "--against", "takes"});
+  const nlohmann::json report =
+      document({"verify", "lib.rpz", "--against", "takes", "--unit-mm", "10"}, 1);
+  EXPECT_EQ(report.at("damaged").at(0).at("id"), "s01_01") << "what is asked for counts";
+}
+
 TEST_F(CommandTest, ResultsAndMessagesDoNotMix) {
   make_library();
   const std::string name = take_names().front();

@@ -28,7 +28,7 @@ struct InputLimits {
 
 /// What the files themselves do not say.
 struct ReadOptions {
-  double bvh_millimetres_per_unit = 10.0;
+  std::optional<double> bvh_millimetres_per_unit;  ///< else 10, or what a take is stored with
   std::optional<double> amc_frame_rate;      ///< else 120 Hz, and the take says that it was assumed
   std::optional<std::filesystem::path> asf;  ///< else the skeleton beside the AMC (find_asf)
 };
@@ -37,7 +37,8 @@ struct ReadOptions {
 /// line. The take's name is left empty. Frames that the file lacks are not invented: a BVH has the
 /// frames that its lines hold; where `Frames:` disagrees the file is rejected. A frame rate that no
 /// take may have (is_frame_rate) is an Error (usage).
-Take read_bvh(std::string_view text, const std::string& file, double millimetres_per_unit = 10.0);
+Take read_bvh(std::string_view text, const std::string& file,
+              double millimetres_per_unit = default_millimetres_per_unit);
 Skeleton read_asf(std::string_view text, const std::string& file);
 Take read_amc(std::string_view text, const std::string& file,
               std::shared_ptr<const Skeleton> skeleton,
@@ -45,7 +46,7 @@ Take read_amc(std::string_view text, const std::string& file,
 
 /// The skeleton of a BVH text that ends where `MOTION` would stand (Skeleton::source_text).
 Skeleton read_bvh_skeleton(std::string_view text, const std::string& file,
-                           double millimetres_per_unit = 10.0);
+                           double millimetres_per_unit = default_millimetres_per_unit);
 
 /// True for the extensions .bvh and .amc, in any case.
 bool is_motion_file(const std::filesystem::path& path);

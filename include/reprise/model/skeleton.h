@@ -53,13 +53,16 @@ struct Joint {
   int first_channel = 0;  ///< index of the first of `channels` in a frame
 };
 
+/// BVH does not say its unit; centimetres are the most common one.
+constexpr double default_millimetres_per_unit = 10.0;
+
 /// Joints in file order (hierarchy first, depth first for BVH; root and then `:hierarchy` order for
 /// ASF).
 struct Skeleton {
   MotionFormat format = MotionFormat::bvh;
   std::vector<Joint> joints;
   int channel_count = 0;
-  double millimetres_per_unit = 10.0;
+  double millimetres_per_unit = default_millimetres_per_unit;
   /// The text that describes the skeleton, byte for byte: a BVH file up to and without its line
   /// `MOTION`, or the whole ASF file. Parsing it gives this skeleton again.
   std::string source_text;
