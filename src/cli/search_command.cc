@@ -1,6 +1,7 @@
 #include "cli/search_command.h"
 
 #include "cli/interruption.h"
+#include "cli/intervals.h"
 #include "cli/motion_input.h"
 #include "cli/options.h"
 #include "cli/text.h"
@@ -100,15 +101,20 @@ ExitCode SearchCommand::run(Console& console) {
     const Archive archive(archive_);
     if (!id_.empty()) selection = archive.find(id_);
   }
+  if (selection && (options_.from || options_.to)) {
+    // Throws where the part is not in the take or clip.
+    frames_of({options_.from, options_.to}, selection->frames, selection->take.frame_rate);
+  }
   if (selection && selection->clip) {
     if (!options_.from) options_.from = selection->clip->start;
     if (!options_.to) options_.to = selection->clip->end;
   }
-  const InterruptionGuard guard;
   std::optional<MotionSearch> search;
   {
+    const InterruptionGuard guard;  // a cache that is being written is finished
     ProgressBar bar("search", console.progress_terminal());
     search.emplace(archive_, setup_, progress_sink(bar));
+    InterruptionGuard::check();
   }
   if (!search->cache_problem().empty()) console.message(printable(search->cache_problem()));
   const std::vector<SearchResult> results =

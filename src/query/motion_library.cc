@@ -97,6 +97,7 @@ std::vector<LibraryTake> read_library(const std::filesystem::path& archive,
     for (std::size_t i = 0; i < infos.size(); ++i) {
       takes[i].name = infos[i].name;
       takes[i].subject = infos[i].subject;
+      takes[i].seconds = infos[i].seconds();
       takes[i].key = key_of(infos[i], setup.joint_map);
       const auto known = std::lower_bound(cached.begin(), cached.end(), takes[i], by_key);
       if (known != cached.end() && known->key == takes[i].key) {

@@ -13,6 +13,7 @@ namespace reprise {
 struct LibraryTake {
   std::string name;
   std::string subject;
+  double seconds = 0;
   Digest key{};  ///< of all that its postures depend on
   PostureTrack track;
 };

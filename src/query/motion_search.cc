@@ -17,6 +17,12 @@ constexpr std::size_t least_compared = 300;
 /// A take longer than this many times the example is searched for parts.
 constexpr double longest_whole = 2.0;
 
+/// Postures are sampled: the last one of a take stands for what is left of it.
+double told_end(const LibraryTake& take, const Stretch& stretch) {
+  const bool to_the_last = stretch.end >= whole_of(take.track).end;
+  return to_the_last ? std::max(take.seconds, stretch.end) : stretch.end;
+}
+
 }  // namespace
 
 struct MotionSearch::Impl {
@@ -97,8 +103,8 @@ std::vector<SearchResult> MotionSearch::Impl::search(const Example& example,
         mean_joint_distance(*example.track, example.stretch, take.track, match.stretch);
     if (options.limit_mm && distance > *options.limit_mm) continue;
     others.push_back(match.stretch);
-    results.push_back({take.name, take.subject, match.stretch.begin, match.stretch.end, distance,
-                       match.unlikeness});
+    results.push_back({take.name, take.subject, match.stretch.begin, told_end(take, match.stretch),
+                       distance, match.unlikeness});
   }
   return results;
 }
@@ -119,6 +125,9 @@ void choose_part(Example& example, double seconds, const SearchOptions& options)
   example.whole = !options.from && !options.to;
   const Stretch whole = whole_of(*example.track);
   example.stretch = {std::min(from, whole.end), std::min(to, whole.end)};
+  if (!example.whole && !(example.stretch.seconds() > 0)) {
+    throw Error(ErrorCode::usage, "the part is too short to look for its motion");
+  }
 }
 
 }  // namespace

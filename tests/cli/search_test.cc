@@ -45,6 +45,32 @@ TEST_F(SearchTest, AClipIsAPartOfItsTake) {
   EXPECT_EQ(reprise({"search", "lib.rpz", "--id", clips[0].at("id")}).exit_code, 0);
 }
 
+TEST_F(SearchTest, APartOutsideItsClipOrWithoutLengthIsWrongUsage) {
+  for (const json& clip : document({"list", "lib.rpz", "--clips"}).at("clips")) {
+    if (clip.at("start") == 0.0) continue;
+    const Outcome before =
+        reprise({"search", "lib.rpz", "--id", clip.at("id"), "--from", "0", "--to", "0.5"});
+    EXPECT_EQ(before.exit_code, 2) << before.err;
+  }
+  const json take = document({"list", "lib.rpz"}).at("takes").at(0);
+  const std::string late = std::to_string(take.at("seconds").get<double>() - 0.02);
+  const Outcome nothing = reprise({"search", "lib.rpz", "--id", take.at("id"), "--from", late});
+  EXPECT_EQ(nothing.exit_code, 2) << nothing.err;
+  EXPECT_NE(nothing.err.find("too short"), std::string::npos) << nothing.err;
+}
+
+TEST_F(SearchTest, AWholeTakeEndsWhereItEnds) {
+  std::map<std::string, double> seconds;
+  for (const json& take : document({"list", "lib.rpz"}).at("takes")) {
+    seconds[take.at("name")] = take.at("seconds");
+  }
+  const std::string take = take_names()[0];
+  for (const json& result : document({"search", "lib.rpz", "--id", take}).at("results")) {
+    EXPECT_EQ(result.at("start"), 0.0);
+    EXPECT_EQ(result.at("end"), seconds.at(result.at("take")));
+  }
+}
+
 TEST_F(SearchTest, WithoutTheCacheNothingIsWritten) {
   const std::string take = take_names()[0];
   const auto before = files_below(folder());
