@@ -86,6 +86,9 @@ SelfDistance self_distance(const Archive& archive, const TakeInfo& info) {
   }
   plot.behaviours = behaviours_of(projected, constants.rate);
   plot.clips = clips_of(library, minima, constants);
+  // The last sample stands for what is left of the take.
+  plot.behaviours.back().end = take.seconds();
+  plot.clips.back().end = take.seconds();
   return plot;
 }
 

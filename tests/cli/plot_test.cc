@@ -32,7 +32,7 @@ class PlotCommandTest : public CommandTest {
       EXPECT_LT(part["start"].get<double>(), part["end"].get<double>());
       at = part["end"];
     }
-    EXPECT_NEAR(at, seconds, 0.1);
+    EXPECT_NEAR(at, seconds, 1e-9);
   }
 };
 
