@@ -48,6 +48,10 @@ std::string reason_of(int result, const std::string& message, int number) {
     case ErrorCode::locked:
       return "the archive is in use by another process";
     default:
+      if (result == SQLITE_READONLY_DIRECTORY) {
+        return "the folder of the archive cannot be written; a change is kept in a file beside it "
+               "until it is complete";
+      }
       if ((result & 0xff) == SQLITE_READONLY) {
         return "a writer that ended left a change unfinished, which can be taken back only where "
                "the archive may be written";

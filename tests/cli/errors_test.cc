@@ -176,6 +176,18 @@ TEST_F(ErrorsTest, SecondWriterIsSix) {
   EXPECT_EQ(reprise({"ingest", "lib.rpz", "takes", "--prefix", "more"}).exit_code, 0);
 }
 
+TEST_F(ErrorsTest, AFolderThatMayNotBeWrittenIsCalledThat) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  make_library();
+  const std::string take = take_names().front();
+  fs::permissions(folder(), fs::perms::owner_read | fs::perms::owner_exec);
+  const Outcome outcome = reprise({"remove", "lib.rpz", take});
+  fs::permissions(folder(), fs::perms::owner_all);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("the folder of the archive cannot be written"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(ErrorsTest, ExistingOutputStays) {
   make_library();
   const std::string take = take_names().front();
