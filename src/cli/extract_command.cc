@@ -50,6 +50,18 @@ MotionText motion_text(const Archive& archive, const PlannedExtract& entry,
   return {write_motion(take), take.skeleton};
 }
 
+/// A name that says another format than what would be in the file misleads what reads it.
+void refuse_other_format(const fs::path& file, const TakeInfo& take) {
+  if (!is_motion_file(file)) return;
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(c | 0x20);
+  if (extension == "." + format_name(take.format)) return;
+  throw Error(ErrorCode::usage,
+              fmt::format("{} comes from {}; it cannot be written as {} yet", take.name,
+                          format_name(take.format), extension.substr(1)),
+              {file.string(), 0});
+}
+
 /// The paths of all motion files, each checked to be inside `folder` and, unless `overwrite`, not
 /// to exist.
 std::vector<fs::path> targets_in(const fs::path& folder, const std::vector<PlannedExtract>& plan,
@@ -123,6 +135,7 @@ ExitCode ExtractCommand::run(Console& console) {
   }
   std::vector<fs::path> targets;
   if (folder_.empty()) {
+    refuse_other_format(file_, plan.front().take);
     targets.push_back(file_);
     if (!overwrite_ && fs::exists(fs::symlink_status(file_))) refuse_existing(file_);
   } else {

@@ -63,9 +63,10 @@ std::string take_text(const TakeInfo& take, const std::vector<ClipInfo>& clips) 
   if (!take.description.empty()) table.add({"description", take.description});
   if (!take.tags.empty()) table.add({"tags", take.tags});
   table.add({"format", format_name(take.format)});
-  table.add(
-      {"length", fmt::format("{} frames at {:.6g} Hz{}, {:.3f} s", take.frames, take.frame_rate,
-                             take.frame_rate_assumed ? " (assumed)" : "", take.seconds())});
+  table.add({"length", fmt::format("{} at {:.6g} Hz{}, {:.3f} s",
+                                   format_count(static_cast<std::uint64_t>(take.frames), "frame"),
+                                   take.frame_rate, take.frame_rate_assumed ? " (assumed)" : "",
+                                   take.seconds())});
   table.add({"skeleton", std::to_string(take.skeleton)});
   table.add({"fidelity", limit_text(take.fidelity)});
   table.add({"error", format_errors(take.error_mm)});

@@ -91,6 +91,16 @@ TEST_F(ExtractTest, AmcComesWithItsAsf) {
   EXPECT_EQ(text, read_file(folder() / entry.at("file").get<std::string>()));
 }
 
+TEST_F(ExtractTest, AFileIsNotNamedForAnotherFormat) {
+  make_library("amc");
+  const std::string name = take_names().front();
+  const Outcome outcome = reprise({"extract", "lib.rpz", name, "-o", "take.BVH"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("cannot be written as bvh"), std::string::npos) << outcome.err;
+  output({"extract", "lib.rpz", name, "-o", "take.AMC"});
+  output({"extract", "lib.rpz", name, "-o", "take.txt", "--overwrite"});
+}
+
 TEST_F(ExtractTest, SkeletonOfAnotherIsNotReplaced) {
   make_library("amc");
   const std::string name = take_names().front();
