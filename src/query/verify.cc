@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "query/archive_impl.h"
+#include "query/distance_tally.h"
 #include "query/take_decoder.h"
 #include "reprise/error.h"
 #include "store/digest.h"
@@ -169,7 +170,7 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
   }
   snapshot.reset();
   report.takes = all.size();
-  std::vector<float> distances;
+  DistanceTally distances;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (progress && !progress({i, all.size(), all[i].name})) {
       throw Error(ErrorCode::interrupted, "stopped");
@@ -187,13 +188,13 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       if (against && source == nullptr) {
         report.damaged.push_back({all[i].name, "its source is not in the folder", true});
       }
-      distances.insert(distances.end(), check.distances().begin(), check.distances().end());
+      distances.add(check.distances());
     } catch (const Error& error) {
       if (error.code() == ErrorCode::interrupted) throw;
       report.damaged.push_back({all[i].name, error.reason()});
     }
   }
-  if (against) report.error_mm = summarise_distances(distances);
+  if (against) report.error_mm = distances.errors();
   report.ok = report.damaged.empty();
   return report;
 }
