@@ -43,9 +43,20 @@ CsvRows parse_csv(const std::string& text, const std::string& file) {
   return rows;
 }
 
+/// As tables from elsewhere write it: " Subject" is the column subject, too.
+std::string column_name(const std::string& cell) {
+  const std::size_t from = cell.find_first_not_of(' ');
+  if (from == std::string::npos) return {};
+  std::string name = cell.substr(from, cell.find_last_not_of(' ') - from + 1);
+  for (char& c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return name;
+}
+
 int column_of(const std::vector<std::string>& header, const std::string& name) {
   for (std::size_t c = 0; c < header.size(); ++c) {
-    if (header[c] == name) return static_cast<int>(c);
+    if (column_name(header[c]) == name) return static_cast<int>(c);
   }
   return -1;
 }
@@ -68,9 +79,15 @@ MetadataTable MetadataTable::read(const std::filesystem::path& path) {
   MetadataTable table;
   for (std::size_t r = 1; r < csv.rows.size(); ++r) {
     const auto& row = csv.rows[r];
-    table.rows_[cell(row, column_of(header, "take"))] = {
-        cell(row, column_of(header, "subject")), cell(row, column_of(header, "description")),
-        cell(row, column_of(header, "tags"))};
+    const std::string take = cell(row, column_of(header, "take"));
+    TakeMetadata metadata{cell(row, column_of(header, "subject")),
+                          cell(row, column_of(header, "description")),
+                          cell(row, column_of(header, "tags"))};
+    const auto [known, fresh] = table.rows_.emplace(take, metadata);
+    if (!fresh && !(known->second == metadata)) {
+      throw Error(ErrorCode::failed, "the table says two things of the take '" + take + "'",
+                  {path.string(), 0});
+    }
   }
   return table;
 }

@@ -13,13 +13,15 @@ struct TakeMetadata {
   std::string subject;
   std::string description;
   std::string tags;
+
+  friend bool operator==(const TakeMetadata&, const TakeMetadata&) = default;
 };
 
 class MetadataTable {
  public:
   MetadataTable() = default;
-  /// Reads a CSV file (RFC 4180) with a header line; columns in any order, others are ignored.
-  /// Throws Error (failed) with file and line.
+  /// Reads a CSV file (RFC 4180) with a header line; columns in any order and in any case, others
+  /// are ignored. Throws Error (failed) with file and line; also where two rows of a take differ.
   static MetadataTable read(const std::filesystem::path& path);
 
   /// The row of a take: by its whole name, else by the longest trailing part that has one. Null:

@@ -147,6 +147,28 @@ TEST_F(IngestTest, MetadataThatComesLaterReplacesTakes) {
   EXPECT_EQ(document(again).at("other_metadata").size(), 0U);
 }
 
+TEST_F(IngestTest, ColumnsAreKnownInAnyCase) {
+  make_library();
+  const std::string name = take_names().front();
+  write_file(folder() / "takes.csv", "Take, Subject ,TAGS\n" + name + ",Anna,walk\n");
+  output({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
+  const auto take = document({"info", "told.rpz", name}).at("take");
+  EXPECT_EQ(take.at("subject"), "Anna");
+  EXPECT_EQ(take.at("tags"), "walk");
+}
+
+TEST_F(IngestTest, ATableThatSaysTwoThingsOfATakeIsRefused) {
+  make_library();
+  const std::string name = take_names().front();
+  write_file(folder() / "takes.csv",
+             "take,subject\n" + name + ",Anna\n" + name + ",Anna\n" + name + ",Bob\n");
+  const Outcome outcome = reprise({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("two things of the take '" + name + "'"), std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(fs::exists(folder() / "told.rpz"));
+}
+
 TEST_F(IngestTest, RowsOfNoTakeAreTold) {
   make_library();
   const std::string name = take_names().front();
