@@ -56,13 +56,14 @@ std::string limit_text(const Fidelity& fidelity) {
                      fidelity.limit_mm);
 }
 
-std::string take_text(const TakeInfo& take, const std::vector<ClipInfo>& clips) {
+std::string take_text(const TakeInfo& take, double unit_mm, const std::vector<ClipInfo>& clips) {
   Table table = facts();
   table.add({"take", take.name});
   if (!take.subject.empty()) table.add({"subject", take.subject});
   if (!take.description.empty()) table.add({"description", take.description});
   if (!take.tags.empty()) table.add({"tags", take.tags});
   table.add({"format", format_name(take.format)});
+  table.add({"unit", fmt::format("{:.6g} mm", unit_mm)});
   table.add({"length", fmt::format("{} at {:.6g} Hz{}, {:.3f} s",
                                    format_count(static_cast<std::uint64_t>(take.frames), "frame"),
                                    take.frame_rate, take.frame_rate_assumed ? " (assumed)" : "",
@@ -198,9 +199,10 @@ ExitCode InfoCommand::run(Console& console) {
     const auto clips = clips_of(archive, selection.take);
     const JointMap map = joint_map_.empty() ? JointMap{} : read_joint_map(joint_map_);
     const Take take = archive.extract(selection.take);
-    console.result(take_text(selection.take, clips) + key_poses_text(take, map) +
-                   body_text(*take.skeleton, map));
+    console.result(take_text(selection.take, take.skeleton->millimetres_per_unit, clips) +
+                   key_poses_text(take, map) + body_text(*take.skeleton, map));
     Json document = take_document(selection.take, clips);
+    document["take"]["unit_mm"] = take.skeleton->millimetres_per_unit;
     document["take"]["key_poses"] = key_poses_array(take, map);
     document["take"]["body"] = body_document(*take.skeleton, map);
     console.document(document);

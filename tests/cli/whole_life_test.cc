@@ -84,6 +84,7 @@ TEST_F(CommandTest, SourcesAreMeasuredInTheUnitTheyWereStoredIn) {
   output({"synth", "takes", "--takes", "2", "--seconds", "2", "--subjects", "2"});
   output({"ingest", "lib.rpz", "takes/s01", "--unit-mm", "25.4"});
   output({"ingest", "lib.rpz", "takes/s02"});
+  EXPECT_EQ(document({"info", "lib.rpz", "s01_01"}).at("take").at("unit_mm"), 25.4);
   output({"verify", "lib.rpz", "--against", "takes"});
   const nlohmann::json report =
       document({"verify", "lib.rpz", "--against", "takes", "--unit-mm", "10"}, 1);
