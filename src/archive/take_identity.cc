@@ -18,6 +18,11 @@ SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
     throw Error(ErrorCode::rejected_input, "this is a Reprise archive, not a motion file", {name},
                 "reprise extract takes motion out of it");
   }
+  // A folder is searched by the same names: verify would not find the source of another.
+  if (!is_motion_file(file.path)) {
+    throw Error(ErrorCode::rejected_input, "the name ends neither in .bvh nor in .amc", {name},
+                "only BVH and ASF/AMC are read");
+  }
   Hasher hasher;
   hasher.add(text);
   Take take;

@@ -113,6 +113,16 @@ TEST_F(MistakesTest, AnArchiveAmongTheInputsIsCalledOne) {
       0U);
 }
 
+TEST_F(MistakesTest, AFileOfAnotherNameIsNotTakenForABvh) {
+  make_library();
+  fs::copy_file(folder() / "takes" / (take_names().front() + ".bvh"), folder() / "walk.txt");
+  const Outcome outcome = reprise({"ingest", "lib.rpz", "walk.txt"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("walk.txt: the name ends neither in .bvh nor in .amc"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(MistakesTest, SkeletonsAmongTheFilesAreNoMistake) {
   ASSERT_EQ(reprise({"synth", "amc", "--takes", "1", "--seconds", "1", "--subjects", "1",
                      "--format", "amc"})
