@@ -63,8 +63,9 @@ class Ingest {
   }
 
  private:
+  /// A take is done; without a name it is only asked whether to go on.
   void tick(const std::string& current) {
-    ++done_;
+    if (!current.empty()) ++done_;
     if (progress_ && !progress_({std::min(done_, total_), total_, current})) {
       throw Error(ErrorCode::interrupted,
                   "stopped; what is stored stays, and running it again goes on");

@@ -64,7 +64,10 @@ MarkerMoments SpaceTrainer::moments_of(const MarkerLayout& layout, const Members
         own.add(every_frame ? mark_take(layout, take).markers : sampled_markers(layout, take));
         return own;
       },
-      [&](std::size_t, MarkerMoments own) { moments.add(own); });
+      [&](std::size_t, MarkerMoments own) {
+        moments.add(own);
+        tick_({});
+      });
   return moments;
 }
 
@@ -129,6 +132,7 @@ SpaceTrainer::MeasuredCurves SpaceTrainer::measure_curves(const CoefficientSpace
       [&](std::size_t, TakeCurves one) {
         add_scales(space, one, measured.scales);
         curves.push_back(std::move(one));
+        tick_({});
       });
   measured.scales.settle();
   const KnotModel model(measured.scales);
@@ -136,7 +140,10 @@ SpaceTrainer::MeasuredCurves SpaceTrainer::measure_curves(const CoefficientSpace
   produce_in_order(
       curves.size(), options_.jobs,
       [&](std::size_t c) { return kind_costs(space, model, curves[c], step); },
-      [&](std::size_t, const KindCosts& own) { measured.costs.add(own, takes_each); });
+      [&](std::size_t, const KindCosts& own) {
+        measured.costs.add(own, takes_each);
+        tick_({});
+      });
   return measured;
 }
 

@@ -18,7 +18,8 @@ class SpaceTrainer {
   /// Indices of takes of one skeleton structure, by name.
   using Members = std::vector<std::size_t>;
 
-  /// Keeps references to the takes and options. `tick` hears of each take that was fitted.
+  /// Keeps references to the takes and options. `tick` hears of each take that was fitted,
+  /// and without a name of each that was only looked at: it may throw, to stop.
   SpaceTrainer(const std::vector<FreshTake>& takes, const IngestOptions& options,
                std::function<void(const std::string&)> tick)
       : takes_(takes), options_(options), tick_(std::move(tick)) {}

@@ -60,6 +60,25 @@ TEST_F(ArchiveTest, AStoppedIngestKeepsWhatIsCoded) {
   EXPECT_EQ(ingest(folder_ / "stopped", options).added.size(), 1u);
 }
 
+TEST_F(ArchiveTest, AStopIsHeededWhileTheAxesAreLearnt) {
+  synthesise("takes", 4, 7, 2);
+  IngestOptions options;
+  options.paths = {folder_ / "takes"};
+  options.fidelity = {FidelityTier::preview, 20};
+  options.jobs = 1;
+  std::size_t last = 0;
+  bool asked = false;
+  // No take is done where the number of takes done does not grow.
+  const auto until_asked = [&](const Progress& progress) {
+    asked = asked || progress.done == last;
+    last = progress.done;
+    return !asked;
+  };
+  EXPECT_THROW(ingest(folder_ / "stopped", options, until_asked), Error);
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(ingest(folder_ / "stopped", options).added.size(), 4u);
+}
+
 TEST_F(ArchiveTest, LaterTakesThatDoNotFitExtendTheAxes) {
   synthesise("takes", 4, 6);
   // A take of the same skeleton that does what no other does.
