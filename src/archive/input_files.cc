@@ -93,8 +93,8 @@ std::vector<FoundFile> files_of(const std::vector<fs::path>& arguments,
     }
   }
   std::ranges::sort(files, {}, &FoundFile::order);
-  const auto repeated = std::ranges::unique(files, {}, &FoundFile::full);
-  files.erase(repeated.begin(), repeated.end());
+  const auto same = [](const FoundFile& a, const FoundFile& b) { return a.full == b.full; };
+  files.erase(std::unique(files.begin(), files.end(), same), files.end());
   return files;
 }
 
