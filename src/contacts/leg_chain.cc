@@ -5,7 +5,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
+
+#include "model/angle_units.h"
 
 namespace reprise {
 
@@ -13,7 +14,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 constexpr std::size_t most_angles = LegChainConstants::most_angles;
 
 /// Indices of the joints on the way from the root to a leg's points, in file order.

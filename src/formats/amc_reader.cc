@@ -1,9 +1,9 @@
 // AMC: for each frame its number, then a line a bone with the values of its degrees of freedom.
 #include <algorithm>
 #include <map>
-#include <numbers>
 
 #include "formats/text_lines.h"
+#include "model/angle_units.h"
 #include "reprise/formats/motion_file.h"
 
 namespace reprise {
@@ -104,7 +104,7 @@ class AmcReader {
   }
 
   void values(const Joint& joint, std::string_view rest) {
-    const double scale = take_->layout.radians ? 180.0 / std::numbers::pi : 1.0;
+    const double scale = take_->layout.radians ? degrees_per_radian : 1.0;
     std::size_t c = 0;
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++c) {
       const std::optional<double> value = to_number(word);

@@ -1,7 +1,6 @@
 #include "formats/asf_bone.h"
 
-#include <numbers>
-
+#include "model/angle_units.h"
 #include "reprise/model/kinematics.h"
 
 namespace reprise {
@@ -9,7 +8,7 @@ namespace {
 
 Eigen::Matrix3d axis_matrix(const AsfBone& bone, bool radians) {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
-  const double scale = radians ? 1.0 : std::numbers::pi / 180.0;
+  const double scale = radians ? 1.0 : radians_per_degree;
   for (const int axis : bone.axis_order)
     matrix = axis_rotation(axis, bone.axis_angles[axis] * scale) * matrix;
   return matrix;

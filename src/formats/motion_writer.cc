@@ -1,8 +1,8 @@
 // Takes as text, in the format of their source and with its header.
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "model/angle_units.h"
 #include "reprise/formats/motion_file.h"
 
 namespace reprise {
@@ -51,7 +51,7 @@ std::string write_amc(const Take& take, int decimals) {
   const std::string end = line_end_of(text);
   if (!text.empty() && text.back() != '\n' && text.back() != '\r') text += end;
   text.reserve(text.size() + static_cast<std::size_t>(take.channels.size()) * 16);
-  const double scale = layout.radians ? std::numbers::pi / 180.0 : 1.0;
+  const double scale = layout.radians ? radians_per_degree : 1.0;
   for (long f = 0; f < take.frames(); ++f) {
     text += std::to_string(layout.first_frame_number + f) + end;
     for (const int j : layout.amc_joints) {

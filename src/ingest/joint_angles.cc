@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 
 #include "ingest/axis_turns.h"
 #include "ingest/rotation_angles.h"
 #include "ingest/virtual_markers.h"
+#include "model/angle_units.h"
 #include "reprise/model/kinematics.h"
 
 namespace reprise {
@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// Orthonormal axes with `first` along the first and `second` in the plane of the first two.
 /// Vectors too short or too alike to say so (a coarse decode may bring any) get some axes all the

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "ingest/joint_angles.h"
+#include "model/angle_units.h"
 
 namespace reprise {
 namespace {
@@ -13,8 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
-
-constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
 Channel kind_of_channel(const Skeleton& skeleton, int channel) {
   for (const Joint& joint : skeleton.joints) {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
+#include "model/angle_units.h"
 #include "refine/pose_metric.h"
 
 namespace reprise {
@@ -15,8 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 void turn(Matrix3d& rotation, int axis, double sine, double cosine) {
   const int j = (axis + 1) % 3, k = (axis + 2) % 3;
@@ -62,7 +60,7 @@ JointPlacement::JointPlacement(const Take& take)
       sine_(take.frames(), take.channels.cols()),
       cosine_(take.frames(), take.channels.cols()) {
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const auto radians = take.channels.col(order_[i]).array() * degree;
+    const auto radians = take.channels.col(order_[i]).array() * radians_per_degree;
     sine_.col(static_cast<Index>(i)) = radians.sin().cast<float>();
     cosine_.col(static_cast<Index>(i)) = radians.cos().cast<float>();
   }
@@ -125,8 +123,8 @@ void JointPlacement::turn_by(std::size_t place, int axis,
   for (Index f = 0; f < take_.frames(); ++f) {
     if (degrees[f] != last) {
       last = degrees[f];
-      sine = std::sin(last * degree);
-      cosine = std::cos(last * degree);
+      sine = std::sin(last * radians_per_degree);
+      cosine = std::cos(last * radians_per_degree);
     }
     const auto at = static_cast<std::size_t>(f);
     turn(progress_.decoded[at].rotation, axis, sine, cosine);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/angle_units.h"
+
 namespace reprise {
 namespace {
 
@@ -27,7 +29,7 @@ void add_point(Inertia& inertia, const Vector3d& place, double weight) {
 Twist turning(const Vector3d& axis, const Vector3d& pivot) {
   Twist twist;
   twist << axis, pivot.cross(axis);
-  return twist * (std::numbers::pi / 180.0);
+  return twist * radians_per_degree;
 }
 
 Twist shifting(const Vector3d& direction) {
