@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/foot_contact.h"
+
 namespace reprise {
 namespace {
 
@@ -21,7 +23,7 @@ double floor_height(const std::vector<Leg>& legs, const PositionMatrix& position
       }
     }
   }
-  const auto rank = static_cast<std::size_t>(ContactConstants::floor_percentile / 100.0 *
+  const auto rank = static_cast<std::size_t>(FootContact::floor_percentile / 100.0 *
                                              static_cast<double>(heights.size() - 1));
   std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(rank),
                    heights.end());
@@ -40,12 +42,12 @@ double horizontal_speed(const PositionMatrix& positions, int joint, Index from, 
 std::vector<bool> standing_frames(const std::vector<int>& point, const PositionMatrix& positions,
                                   double rate, double floor) {
   const Index frames = positions.rows();
-  const Index h = std::max<Index>(1, std::lrint(ContactConstants::half_window_s * rate));
+  const Index h = std::max<Index>(1, std::lrint(FootContact::half_window_s * rate));
   std::vector<bool> stands(static_cast<std::size_t>(frames), false);
   for (const int joint : point) {
     for (Index f = h; f + h < frames; ++f) {
-      if (positions(f, 3 * joint + up_axis) >= floor + ContactConstants::height_mm) continue;
-      if (horizontal_speed(positions, joint, f - h, f + h, rate) >= ContactConstants::speed_mm_s) {
+      if (positions(f, 3 * joint + up_axis) >= floor + FootContact::height_mm) continue;
+      if (horizontal_speed(positions, joint, f - h, f + h, rate) >= FootContact::speed_mm_s) {
         continue;
       }
       std::fill(stands.begin() + (f - h), stands.begin() + (f + h + 1), true);

@@ -8,14 +8,10 @@
 
 namespace reprise {
 
-/// Thresholds are those of the foot skate measure (docs/measures.md): a foot that is slower slides
+/// Thresholds are those of the foot skate measure (FootContact): a foot that is slower slides
 /// visibly when the decoded one does not hold. The paper's 2.5 cm a frame of 120 Hz, 3 m/s, holds
 /// feet that swing.
 struct ContactConstants {
-  static constexpr double height_mm = 50;
-  static constexpr double speed_mm_s = 150;
-  static constexpr double half_window_s = 0.025;  ///< of the difference that a speed is
-  static constexpr double floor_percentile = 5;
   static constexpr double unit_s = 1.0 / 30.0;   ///< contacts begin and end on multiples of it
   static constexpr long shortest_units = 2;      ///< a shorter contact is none
   static constexpr long shortest_gap_units = 2;  ///< a shorter gap between two contacts is none

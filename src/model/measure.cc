@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/foot_contact.h"
 #include "reprise/error.h"
 
 namespace reprise {
@@ -10,11 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-// Foot contact, as docs/measures.md defines it.
-constexpr double contact_height_mm = 50.0;
-constexpr double contact_speed_mm_s = 150.0;
-constexpr double floor_percentile = 5.0;
-constexpr double half_window_s = 0.025;
+/// Of a take that foot skate is measured of.
 constexpr Index least_frames = 8;
 constexpr int up_axis = 1;
 constexpr double rounding = 1e-12;
@@ -99,20 +96,20 @@ std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatr
   }
   if (feet.empty() || frames < least_frames) return std::nullopt;
   // Halves go to the even number.
-  const Index h = std::max<Index>(1, std::lrint(half_window_s * frame_rate));
+  const Index h = std::max<Index>(1, std::lrint(FootContact::half_window_s * frame_rate));
   std::vector<double> heights;
   for (const int joint : feet) {
     for (Index f = 0; f < frames; ++f) heights.push_back(original(f, 3 * joint + up_axis));
   }
   std::sort(heights.begin(), heights.end());
-  const double floor = percentile(heights, floor_percentile);
+  const double floor = percentile(heights, FootContact::floor_percentile);
   double in_original = 0, in_decoded = 0;
   long contacts = 0;
   for (const int joint : feet) {
     for (Index f = h; f + h < frames; ++f) {
       const double speed = horizontal_speed(original, joint, f, h, frame_rate);
-      const bool touches = original(f, 3 * joint + up_axis) < floor + contact_height_mm;
-      if (!touches || speed >= contact_speed_mm_s) continue;
+      const bool touches = original(f, 3 * joint + up_axis) < floor + FootContact::height_mm;
+      if (!touches || speed >= FootContact::speed_mm_s) continue;
       in_original += speed;
       in_decoded += horizontal_speed(decoded, joint, f, h, frame_rate);
       ++contacts;
