@@ -5,20 +5,17 @@
 #include <cstdint>
 #include <limits>
 
+#include "rma/path_steps.h"
+
 namespace reprise {
 namespace {
 
-struct Step {
-  int clip;
-  int take;
-};
-constexpr std::array<Step, 5> steps{{{1, 1}, {1, 2}, {2, 1}, {1, 3}, {3, 1}}};
-constexpr long longest_step = 3;
 constexpr float never = std::numeric_limits<float>::infinity();
 
 /// Least-cost alignments of all of a clip (rows) with some part of a take (columns), free at both
-/// ends of the take. A row costs once, whatever the speed. Costs never fall along an alignment:
-/// once none is within `most_cost` any more, the rest of the plot is left out.
+/// ends of the take. Steps have x along the clip and y along the take. A row costs once, whatever
+/// the speed. Costs never fall along an alignment: once none is within `most_cost` any more, the
+/// rest of the plot is left out.
 class AlignmentPlot {
  public:
   AlignmentPlot(const PostureView& clip, const PostureView& take, float most_cost)
@@ -32,7 +29,7 @@ class AlignmentPlot {
     cost_.row(0) = distance_.row(0);
     for (long r = 1, hopeless = 0; r < rows_; ++r) {
       hopeless = cost_.row(r - 1).minCoeff() > most_cost ? hopeless + 1 : 0;
-      if (hopeless == longest_step) return;
+      if (hopeless == RepeatConstants::steepest) return;
       fill_row(r);
     }
   }
@@ -44,11 +41,11 @@ class AlignmentPlot {
     std::vector<long> map(static_cast<std::size_t>(rows_), column);
     long row = rows_ - 1;
     while (row > 0) {
-      const Step& step =
-          steps[static_cast<std::size_t>(step_[static_cast<std::size_t>(row * columns_ + column)])];
-      for (int s = 0; s < step.clip; ++s) map[static_cast<std::size_t>(row - s)] = column;
-      row -= step.clip;
-      column -= step.take;
+      const PathStep& step = path_steps[static_cast<std::size_t>(
+          step_[static_cast<std::size_t>(row * columns_ + column)])];
+      for (int s = 0; s < step.x; ++s) map[static_cast<std::size_t>(row - s)] = column;
+      row -= step.x;
+      column -= step.y;
     }
     map[0] = column;
     return map;
@@ -56,12 +53,12 @@ class AlignmentPlot {
 
  private:
   void fill_row(long r) {
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      const Step step = steps[s];
-      if (step.clip > r) continue;
-      const auto times = static_cast<float>(step.clip);
-      for (long c = step.take; c < columns_; ++c) {
-        const float cost = cost_(r - step.clip, c - step.take) + times * distance_(r, c);
+    for (std::size_t s = 0; s < path_steps.size(); ++s) {
+      const PathStep step = path_steps[s];
+      if (step.x > r) continue;
+      const auto times = static_cast<float>(step.x);
+      for (long c = step.y; c < columns_; ++c) {
+        const float cost = cost_(r - step.x, c - step.y) + times * distance_(r, c);
         if (cost < cost_(r, c)) {
           cost_(r, c) = cost;
           step_[static_cast<std::size_t>(r * columns_ + c)] = static_cast<std::int8_t>(s);

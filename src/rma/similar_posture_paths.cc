@@ -8,21 +8,17 @@
 #include <limits>
 #include <memory>
 
+#include "rma/path_steps.h"
+
 namespace reprise {
 namespace {
-
-struct Step {
-  int x;
-  int y;
-};
-/// The diagonal first: it wins ties.
-constexpr std::array<Step, 5> steps{{{1, 1}, {1, 2}, {2, 1}, {1, 3}, {3, 1}}};
-static_assert(RepeatConstants::steepest == 3);
 
 constexpr float never = -std::numeric_limits<float>::infinity();
 
 /// Half the Manhattan length of a step.
-constexpr float length_of(const Step& step) { return 0.5F * static_cast<float>(step.x + step.y); }
+constexpr float length_of(const PathStep& step) {
+  return 0.5F * static_cast<float>(step.x + step.y);
+}
 
 }  // namespace
 
@@ -81,7 +77,7 @@ class PathTracer::Explorer {
     const long row = static_cast<long>(rows_.size());
     const long most_columns = direction_ > 0 ? y_->postures.rows() - start_.y : start_.y + 1;
     long first = std::numeric_limits<long>::max(), end = 0;
-    for (const Step& step : steps) {
+    for (const PathStep& step : path_steps) {
       if (step.x > row) continue;
       const Row& from = rows_[static_cast<std::size_t>(row - step.x)];
       if (from.first >= from.end) continue;
@@ -110,13 +106,14 @@ class PathTracer::Explorer {
 
   /// Adds a pixel to the row; false: it cannot be reached.
   bool score_pixel(long row, long column) {
-    std::array<float, steps.size()> from;
+    std::array<float, path_steps.size()> from;
     float most = never;  // where the postures are the same
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      from[s] = steps[s].x > row ? never
-                                 : score_at(rows_[static_cast<std::size_t>(row - steps[s].x)],
-                                            column - steps[s].y);
-      most = std::max(most, from[s] + length_of(steps[s]));
+    for (std::size_t s = 0; s < path_steps.size(); ++s) {
+      from[s] = path_steps[s].x > row
+                    ? never
+                    : score_at(rows_[static_cast<std::size_t>(row - path_steps[s].x)],
+                               column - path_steps[s].y);
+      most = std::max(most, from[s] + length_of(path_steps[s]));
     }
     const PlotPixel at = pixel(row, column);
     const bool allowed = least_lag_ == 0 || std::labs(at.x - at.y) >= least_lag_;
@@ -124,8 +121,8 @@ class PathTracer::Explorer {
     std::int8_t by = -1;
     if (allowed && most >= best_ - allowed_drop_) {
       const float gain = likeness(at);
-      for (std::size_t s = 0; s < steps.size(); ++s) {
-        const float score = from[s] + length_of(steps[s]) * gain;
+      for (std::size_t s = 0; s < path_steps.size(); ++s) {
+        const float score = from[s] + length_of(path_steps[s]) * gain;
         if (score <= best) continue;
         best = score;
         by = static_cast<std::int8_t>(s);
@@ -149,8 +146,8 @@ class PathTracer::Explorer {
       pixels.push_back(pixel(row, column));
       const Row& at = rows_[static_cast<std::size_t>(row)];
       const std::int8_t by = steps_[at.offset + static_cast<std::size_t>(column - at.first)];
-      row -= steps[static_cast<std::size_t>(by)].x;
-      column -= steps[static_cast<std::size_t>(by)].y;
+      row -= path_steps[static_cast<std::size_t>(by)].x;
+      column -= path_steps[static_cast<std::size_t>(by)].y;
     }
     std::reverse(pixels.begin(), pixels.end());
     return pixels;
@@ -164,7 +161,7 @@ class PathTracer::Explorer {
   long least_lag_ = 0;
   std::vector<Row> rows_;
   std::vector<float> scores_;       // of all rows
-  std::vector<std::int8_t> steps_;  // index into `steps`, by which each pixel was reached
+  std::vector<std::int8_t> steps_;  // index into `path_steps`, by which each pixel was reached
   float best_ = 0;
   long best_row_ = 0, best_column_ = 0;
 };
