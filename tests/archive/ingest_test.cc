@@ -17,6 +17,16 @@ TEST_F(ArchiveTest, EveryTakeIsWithinItsMean) {
   EXPECT_LT(fs::file_size(folder_ / "a20.000000"), fs::file_size(folder_ / "a0.500000"));
 }
 
+TEST_F(ArchiveTest, TakesAreAsCoarseAsTheyMayBe) {
+  synthesise("takes", 6, 3);
+  for (const double mean : {5.0, 20.0}) {
+    const std::string archive = "a" + std::to_string(mean);
+    add(archive, {"takes"}, mean);
+    for (const TakeInfo& info : Archive(folder_ / archive).takes())
+      EXPECT_GE(info.error_mm.mean, 0.85 * mean) << info.name;
+  }
+}
+
 TEST_F(ArchiveTest, ThreadsAndOrderChangeNothing) {
   synthesise("takes", 6, 4);
   std::vector<std::string> files;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "archive/space_training.h"
 #include "ingest/joint_angles.h"
 #include "ingest/skeletons.h"
@@ -102,6 +104,55 @@ TEST(Trajectories, SomersaultTakesOutAllSixDegreesOfFreedom) {
   EXPECT_TRUE(mark_take(space.layout, take).root.tumbles);
   const ChannelMatrix decoded = there_and_back(space, take);
   EXPECT_LT(worst_distance(take, decoded), 1e-3);
+}
+
+TEST(Trajectories, HeadingsAndOrientationsHaveNoJumps) {
+  // Twice round, about the vertical (slot 2) and about the side (slot 1).
+  for (const std::size_t slot : {2, 1}) {
+    Take take = skeletons::swinging_take(skeletons::branches(), 240, 20, 7);
+    const Joint& root = take.skeleton->joints[0];
+    for (long f = 0; f < take.frames(); ++f) {
+      take.channels(f, root.first_channel + root.rotation_slots[slot]) =
+          3.0 * static_cast<double>(f);
+    }
+    const RootTrack track = mark_take(whole_space(take).layout, take).root;
+    ASSERT_EQ(track.tumbles, slot == 1);
+    for (long f = 1; f < take.frames(); ++f) {
+      if (track.tumbles) {
+        EXPECT_GT(track.orientation.row(f).dot(track.orientation.row(f - 1)), 0.9) << f;
+      } else {
+        EXPECT_NEAR(track.heading[f] - track.heading[f - 1], 0, 0.3) << f;
+      }
+    }
+  }
+}
+
+TEST(Trajectories, RootsOfAnAsfMayStandOffTheOrigin) {
+  Take take = skeletons::swinging_take(skeletons::asf(), 60, 25, 12);
+  auto skeleton = std::make_shared<Skeleton>(*take.skeleton);
+  skeleton->joints[0].offset = {1, 20, -3};
+  take.skeleton = skeleton;
+  const ChannelMatrix decoded = there_and_back(whole_space(take), take);
+  EXPECT_LT((decoded - take.channels).cwiseAbs().maxCoeff(), 1e-2);
+}
+
+TEST(Trajectories, BranchSwitchesHoldFromTheirFrameOn) {
+  const Take take = skeletons::swinging_take(skeletons::chain(), 60, 20, 13);
+  const CoefficientSpace space = whole_space(take);
+  const MarkedTake marked = mark_take(space.layout, take);
+  const TrajectoryMatrix trajectories = to_trajectories(space, take, marked);
+  // Half turns of all three angles of a joint are nearly the same rotation again.
+  const auto joint = std::ranges::find(space.layout.driven, 2, &DrivenJoint::joint);
+  ASSERT_NE(joint, space.layout.driven.end());
+  const BranchSwitch half_turns{
+      30, static_cast<std::int32_t>(joint - space.layout.driven.begin()), {2, 2, 2}};
+  const ChannelMatrix without = to_channels(space, *take.skeleton, false, trajectories, {});
+  const ChannelMatrix with = to_channels(space, *take.skeleton, false, trajectories, {half_turns});
+  EXPECT_EQ(with.topRows(30), without.topRows(30));
+  for (long f = 30; f < take.frames(); ++f) {
+    EXPECT_GT((with.row(f) - without.row(f)).cwiseAbs().maxCoeff(), 90) << f;
+  }
+  EXPECT_LT(worst_distance(take, with), 1e-3);
 }
 
 TEST(Trajectories, UprightRootDoesNotTumbleWhateverItsAxes) {

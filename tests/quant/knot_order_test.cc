@@ -49,6 +49,21 @@ TEST(KnotOrder, EveryNumberOnceAndAfterItsNeighbours) {
   }
 }
 
+TEST(KnotOrder, LevelsThatAreAsLongShareASlotWhateverTheRate) {
+  // Strides of 2^level frames, each as long in seconds as a finer take's.
+  const auto slot_of = [](double rate, long stride) {
+    const KnotShape shape = shape_of(600, rate, CurveKind::nested_knots, CurveKind::nested_knots);
+    for (const KnotGroup& group : knot_order(shape)) {
+      if (!group.coarsest && group.rows.front().row == stride) return group.slot;
+    }
+    return -1;
+  };
+  EXPECT_EQ(slot_of(120, 1), 0);
+  EXPECT_EQ(slot_of(120, 2), slot_of(60, 1));
+  EXPECT_EQ(slot_of(120, 8), slot_of(30, 2));
+  EXPECT_EQ(slot_of(240, 1), 0);  // none is finer
+}
+
 TEST(KnotOrder, BandsAreOfTheSameFrequenciesWhateverTheTake) {
   const auto slot_at = [](long frames, double rate, double frequency) {
     const auto row = static_cast<Eigen::Index>(

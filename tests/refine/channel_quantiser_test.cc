@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
+#include "quant/catmull_rom.h"
+#include "reprise/model/measure.h"
 #include "reprise/synth/library.h"
 
 namespace reprise {
@@ -54,6 +57,30 @@ TEST_P(ChannelQuantisers, DecodedChannelsAreThoseOfTheKnots) {
   quantiser.set_steps(step_mm, coded.steps);
   const ChannelMatrix decoded = quantiser.quantise(coded);
   EXPECT_TRUE(decoded == coded.channels(*take.skeleton));
+}
+
+TEST_P(ChannelQuantisers, JointsAreNearerThanIfChannelsKnewNothingOfEachOther) {
+  ChannelQuantiser quantiser(take, step_mm);
+  CodedChannels coded = fresh;
+  quantiser.set_steps(step_mm, coded.steps);
+  const auto mean_of = [&](const ChannelMatrix& decoded) {
+    return position_errors(joint_positions(*take.skeleton, take.channels),
+                           joint_positions(*take.skeleton, decoded))
+        .mean;
+  };
+  const std::vector<int> order = coding_order(*take.skeleton);
+  ChannelMatrix apart = take.channels;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    Eigen::MatrixXd column = take.channels.col(order[i]);
+    NestedKnots::from_frames(column, coded.shape.levels);
+    for (Eigen::Index f = 0; f < column.rows(); ++f) {
+      const double step = coded.steps.step(i, f);
+      column(f) = std::round(column(f) / step) * step;
+    }
+    NestedKnots::to_frames(column, coded.shape.levels);
+    apart.col(order[i]) = column;
+  }
+  EXPECT_LT(mean_of(quantiser.quantise(coded)), 0.7 * mean_of(apart));
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ChannelQuantisers,

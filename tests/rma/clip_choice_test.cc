@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "query/near_windows.h"
 #include "rma/clip_extents.h"
@@ -15,16 +16,6 @@ namespace {
 
 const RepeatConstants constants;
 
-/// A clip of 2 s at 3 s in take 0, at 2 s and half speed in take 1, at 4 s and 1.5 times in take 2.
-PostureLibrary planted_library() {
-  return PostureLibrary(
-      {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2), made_up_take(3, 0, 3)}),
-       joined({made_up_take(4, 0, 2), made_up_take(1, 0, 4, 0.5), made_up_take(5, 0, 2)}),
-       joined({made_up_take(6, 0, 4), made_up_take(1, 0, 4.0 / 3, 1.5), made_up_take(7, 0, 2)}),
-       made_up_take(8, 0, 8)},
-      constants);
-}
-
 std::vector<ChosenClip> clips_of(const PostureLibrary& library) {
   const auto groups =
       find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants);
@@ -32,7 +23,7 @@ std::vector<ChosenClip> clips_of(const PostureLibrary& library) {
 }
 
 TEST(ClipChoice, CoversEveryTakeOnce) {
-  const PostureLibrary library = planted_library();
+  const PostureLibrary library = planted_library(constants);
   std::vector<long> at(library.takes(), 0);
   for (const ChosenClip& clip : clips_of(library)) {
     EXPECT_EQ(clip.begin, at[clip.take]);
@@ -45,7 +36,7 @@ TEST(ClipChoice, CoversEveryTakeOnce) {
 }
 
 TEST(ClipChoice, FindsThePlantedClip) {
-  const std::vector<ChosenClip> clips = clips_of(planted_library());
+  const std::vector<ChosenClip> clips = clips_of(planted_library(constants));
   const auto clip_at = [&](std::size_t take, long begin, long end) {
     const auto found = std::ranges::find_if(clips, [&](const ChosenClip& c) {
       return c.take == take && c.role != ClipRole::unique &&
@@ -67,7 +58,7 @@ TEST(ClipChoice, FindsThePlantedClip) {
 }
 
 TEST(ClipChoice, RepeatedClipsKnowWhichSampleIsBesideEach) {
-  const std::vector<ChosenClip> clips = clips_of(planted_library());
+  const std::vector<ChosenClip> clips = clips_of(planted_library(constants));
   std::size_t repeated = 0;
   for (const ChosenClip& clip : clips) {
     if (clip.role != ClipRole::repeated) continue;
@@ -82,8 +73,41 @@ TEST(ClipChoice, RepeatedClipsKnowWhichSampleIsBesideEach) {
   EXPECT_GE(repeated, 2u);
 }
 
+TEST(ClipChoice, RepeatsAtTheSameSpeedAreBesideTheSamplesThatTheyRepeat) {
+  // Performance 1 at 45 in take 0, at 30 in take 1.
+  const PostureLibrary library(
+      {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 3), made_up_take(3, 0, 3)}),
+       joined({made_up_take(4, 0, 2), made_up_take(1, 0, 3), made_up_take(5, 0, 2)})},
+      constants);
+  std::size_t repeated = 0;
+  for (const ChosenClip& clip : clips_of(library)) {
+    if (clip.role != ClipRole::repeated) continue;
+    ++repeated;
+    const long planted = clip.take == 0 ? 45 : 30, other = clip.take == 0 ? 30 : 45;
+    for (long s = std::max(clip.begin, planted); s < std::min(clip.end, planted + 45); ++s) {
+      EXPECT_EQ(clip.reference[static_cast<std::size_t>(s - clip.begin)] - other, s - planted);
+    }
+  }
+  EXPECT_EQ(repeated, 1u);
+}
+
+TEST(ClipChoice, WhatCostsLessByItselfIsNoRepeat) {
+  // By itself a stand costs nothing.
+  const PostureMatrix stand = made_up_posture(9, 0).replicate(60, 1);
+  const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 4), stand}, constants);
+  std::vector<long> map(60);
+  std::iota(map.begin(), map.end(), 0L);
+  const RepeatGroup group{{{0, 0, 60, 0}, {1, 0, 60, 0, map}, {2, 0, 60, 0, map}}};
+  const std::vector<RepeatGroup> groups = {group};
+  for (const ChosenClip& clip : choose_clips(library, groups, constants)) {
+    EXPECT_EQ(clip.role, clip.take == 0   ? ClipRole::primary
+                         : clip.take == 1 ? ClipRole::repeated
+                                          : ClipRole::unique);
+  }
+}
+
 TEST(ClipChoice, RepeatsHaveAtLeastAsManySamplesAsTheirPrimary) {
-  const std::vector<ChosenClip> clips = clips_of(planted_library());
+  const std::vector<ChosenClip> clips = clips_of(planted_library(constants));
   std::map<std::size_t, long> samples;
   for (const ChosenClip& clip : clips) {
     if (clip.role == ClipRole::repeated) samples[clip.primary] += clip.end - clip.begin;
@@ -104,7 +128,7 @@ TEST(ClipChoice, WithoutRepeatsTakesAreUnique) {
 }
 
 TEST(ClipChoice, StandingClipsStayAndAreRepeated) {
-  const PostureLibrary library = planted_library();
+  const PostureLibrary library = planted_library(constants);
   const auto pairs = find_near_pairs(library, constants);
   // Take 0 is stored: its planted clip by itself, and another one that nothing repeats.
   const long rows = library.postures[0].rows();

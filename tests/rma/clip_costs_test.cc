@@ -10,11 +10,12 @@ namespace reprise {
 namespace {
 
 TEST(ClipCosts, AreDeviationsTimesLength) {
-  // One coordinate: 0 0 3 0 5; clip [1, 4) has its median sample at 2, distances 3, 0, 3.
+  // One coordinate: 7 0 3 0 5; clip [1, 4) has its median sample at 2, distances 3, 0, 3. The
+  // take's first posture is 4 from the median.
   PostureMatrix take(5, 1);
-  take << 0, 0, 3, 0, 5;
+  take << 7, 0, 3, 0, 5;
   const double deviation = std::sqrt(2.0);
-  EXPECT_NEAR(primary_cost(take, 1, 4), 3 * deviation + 3, 1e-6);
+  EXPECT_NEAR(primary_cost(take, 1, 4), 3 * deviation + 4, 1e-6);
   PostureMatrix other(3, 1);
   other << 1, 1, 1;
   const std::vector<long> reference = {0, 1, 2};

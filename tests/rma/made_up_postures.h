@@ -4,7 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "rma/postures.h"
+#include "rma/posture_library.h"
 
 namespace reprise {
 
@@ -46,6 +46,16 @@ inline PostureMatrix joined(std::initializer_list<PostureMatrix> parts) {
     at += part.rows();
   }
   return all;
+}
+
+/// A clip of 2 s at 3 s in take 0, at 2 s and half speed in take 1, at 4 s and 1.5 times in take 2.
+inline PostureLibrary planted_library(const RepeatConstants& constants) {
+  return PostureLibrary(
+      {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2), made_up_take(3, 0, 3)}),
+       joined({made_up_take(4, 0, 2), made_up_take(1, 0, 4, 0.5), made_up_take(5, 0, 2)}),
+       joined({made_up_take(6, 0, 4), made_up_take(1, 0, 4.0 / 3, 1.5), made_up_take(7, 0, 2)}),
+       made_up_take(8, 0, 8)},
+      constants);
 }
 
 }  // namespace reprise

@@ -15,16 +15,6 @@ namespace {
 
 const RepeatConstants constants;
 
-/// A clip of 2 s at 3 s in take 0, at 2 s and half speed in take 1, at 4 s and 1.5 times in take 2.
-PostureLibrary planted_library() {
-  return PostureLibrary(
-      {joined({made_up_take(2, 0, 3), made_up_take(1, 0, 2), made_up_take(3, 0, 3)}),
-       joined({made_up_take(4, 0, 2), made_up_take(1, 0, 4, 0.5), made_up_take(5, 0, 2)}),
-       joined({made_up_take(6, 0, 4), made_up_take(1, 0, 4.0 / 3, 1.5), made_up_take(7, 0, 2)}),
-       made_up_take(8, 0, 8)},
-      constants);
-}
-
 bool holds(const RepeatGroup& group, std::size_t take, long begin, long end) {
   return std::ranges::any_of(group.occurrences, [&](const Occurrence& o) {
     return o.take == take && overlap_ratio(o.begin, o.end, begin, end) >= 0.5;
@@ -32,7 +22,7 @@ bool holds(const RepeatGroup& group, std::size_t take, long begin, long end) {
 }
 
 TEST(RepeatGroups, HoldEveryPlantedClipOnce) {
-  const PostureLibrary library = planted_library();
+  const PostureLibrary library = planted_library(constants);
   const auto groups =
       find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants);
   EXPECT_TRUE(std::ranges::any_of(groups, [](const RepeatGroup& group) {
@@ -41,7 +31,7 @@ TEST(RepeatGroups, HoldEveryPlantedClipOnce) {
 }
 
 TEST(RepeatGroups, MembersAreHeldAgainstTheReference) {
-  const PostureLibrary library = planted_library();
+  const PostureLibrary library = planted_library(constants);
   for (const RepeatGroup& group :
        find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants)) {
     ASSERT_GE(group.occurrences.size(), 2u);
@@ -57,7 +47,7 @@ TEST(RepeatGroups, MembersAreHeldAgainstTheReference) {
 }
 
 TEST(RepeatGroups, OfOneTakeHaveTheirReferenceInIt) {
-  const PostureLibrary library = planted_library();
+  const PostureLibrary library = planted_library(constants);
   const auto groups =
       find_repeat_groups(library, find_near_pairs(library, constants, 1), 1, constants);
   ASSERT_FALSE(groups.empty());
@@ -261,13 +251,31 @@ TEST(TracedPaths, GoThroughPairsThatOthersGoOnFrom) {
   EXPECT_EQ(trace_paths(library, alone, all).size(), 1u);
 }
 
+TEST(TracedPaths, AreNotTracedAgainFromPairsOnThem) {
+  const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 4)}, constants);
+  const std::vector<NearPair> pairs{{0, 20, 1, 20}, {0, 23, 1, 24}, {0, 26, 1, 25}};
+  EXPECT_EQ(trace_paths(library, pairs, constants).size(), 1u);
+}
+
+TEST(ClipExtents, OfAMotionThatGoesOnAreOnePeriod) {
+  const PostureMatrix period = made_up_take(1, 0, 2);
+  const PostureLibrary library({joined({period, period, period})}, constants);
+  const std::vector<NearPair> pairs{{0, 5, 0, 35}, {0, 8, 0, 38}};
+  const std::vector<ClipExtent> extents = find_clip_extents(library, pairs, constants);
+  ASSERT_EQ(extents.size(), 2u);
+  EXPECT_EQ(extents[0].begin, 0);
+  EXPECT_EQ(extents[0].end, 30);
+  EXPECT_EQ(extents[1].begin, 30);
+  EXPECT_EQ(extents[1].end, 60);
+}
+
 TEST(RepeatGroups, OfNothing) {
   EXPECT_TRUE(
       find_repeat_groups(PostureLibrary({}, constants), {}, std::nullopt, constants).empty());
 }
 
 TEST(RepeatsOfAClip, AreFoundAtOtherSpeeds) {
-  const PostureLibrary library = planted_library();
+  const PostureLibrary library = planted_library(constants);
   const RepeatGroup group = find_repeats_of(library, {0, 45, 75, 0}, constants);
   EXPECT_EQ(group.occurrences.size(), 3u);
   EXPECT_TRUE(holds(group, 1, 30, 90));

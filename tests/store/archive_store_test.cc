@@ -51,6 +51,22 @@ TEST_F(ArchiveStoreTest, RecordsComeBack) {
   EXPECT_TRUE(store.check_structure().empty());
 }
 
+TEST_F(ArchiveStoreTest, LayersAreCompressedWhereThatIsSmaller) {
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  const Ground ground = lay_ground(store);
+  TakeRecord take = sample_take(ground, 1);
+  take.layers[1].data.assign(100'000, 7);
+  const std::size_t dense = take.layers[0].data.size();
+  store.add_take(take, sample_clips(1));
+  store.commit();
+  const auto stored = store.find_take(take.info.name);
+  ASSERT_TRUE(stored);
+  EXPECT_GE(stored->info.payload_bytes, dense);
+  EXPECT_LT(stored->info.payload_bytes, dense + 1000);
+  EXPECT_EQ(store.layer(stored->info.id, 1), take.layers[1].data);
+}
+
 TEST_F(ArchiveStoreTest, NamesAreFoundByTheirEnd) {
   make_sample(path_, 5);
   const ArchiveStore store = ArchiveStore::open_for_reading(path_);
