@@ -130,7 +130,8 @@ class NumbersDecoder {
                  std::string_view known_text)
       : decoder_(bits), coding_(decoder_), strings_(beside), starts_(expected_starts(known_text)) {}
 
-  void append_to(std::string& text) {
+  /// Up to `most` bytes, and what the last row has too much.
+  void append_to(std::string& text, std::size_t most) {
     text.append(strings_.next());
     const auto pieces = pieces_of(strings_.next());
     NumberTable table;
@@ -138,6 +139,7 @@ class NumbersDecoder {
     table.columns.resize(pieces.size() - 1);
     decode_table_header(decoder_, table, starts_);
     const std::size_t cut = coding_.number(0);
+    if (cut > most) throw_damaged("it is cut by more than it has");
     NumberCoder coder(table);
     prepare(coder, pieces);
     std::vector<CodedNumber> numbers(table.columns.size());
@@ -146,7 +148,7 @@ class NumbersDecoder {
     RowKinds kinds;
     for (;;) {
       if (coding_.at_end()) throw_damaged("it ends too early");
-      if (text.size() > most_text) throw_damaged("it is longer than any text");
+      if (text.size() > most + cut) throw_damaged("it is longer than it is said to be");
       if (coding_.bit(kinds.usual, false)) {
         coder.code_row(coding_, {numbers, escaped});
         append_row(coder, numbers, escaped, text);
@@ -223,7 +225,9 @@ std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view kn
   return plainly;
 }
 
-std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text) {
+std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
+                        std::size_t most) {
+  most = std::min(most, most_text);
   if (coded.empty()) throw_damaged("it is empty");
   const std::uint8_t mode = coded.front() & mode_mask;
   if ((coded.front() & ~(mode_mask | follows_known)) != 0) throw_damaged("it is of no known kind");
@@ -231,15 +235,18 @@ std::string decode_text(std::span<const std::uint8_t> coded, std::string_view kn
   if ((coded.front() & follows_known) != 0) text.append(known_text);
   std::span<const std::uint8_t> rest = coded.subspan(1);
   if (mode == Mode::plain) {
-    text.append(decompress_plain(rest, most_text));
+    text.append(decompress_plain(rest, most));
   } else if (mode == Mode::numbers) {
     const std::size_t length = take_length(rest);
     if (length > rest.size()) throw_damaged("it ends too early");
-    const std::string beside = decompress_plain(rest.first(length), most_text);
-    NumbersDecoder(rest.subspan(length), beside, known_text).append_to(text);
+    // Strings of the text with their ends, and a pattern that is no longer than one of its frames.
+    const std::size_t most_beside = std::min(3 * most + 2, most_text);
+    const std::string beside = decompress_plain(rest.first(length), most_beside);
+    NumbersDecoder(rest.subspan(length), beside, known_text).append_to(text, most);
   } else {
     throw_damaged("it is of no known kind");
   }
+  if (text.size() > most) throw_damaged("it is longer than it is said to be");
   return text;
 }
 

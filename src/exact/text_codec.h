@@ -16,8 +16,9 @@ namespace reprise {
 std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view known_text);
 
 /// The bytes again, given the same `known_text`. Throws Error (damaged) for anything
-/// that `encode_text` did not write, where it can be told; memory grows with what is decoded, and
-/// not with what the bytes claim.
-std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text);
+/// that `encode_text` did not write, where it can be told, and for a text longer than `most`:
+/// a few bytes can be any number of equal lines.
+std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
+                        std::size_t most = std::size_t{1} << 31);
 
 }  // namespace reprise

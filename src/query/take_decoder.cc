@@ -49,6 +49,15 @@ std::string known_text(const Take& take) {
   return take.skeleton->format == MotionFormat::bvh ? take.skeleton->source_text : std::string();
 }
 
+/// The source text, as long as it was: few coded bytes can be very many equal lines.
+std::string decode_whole_text(std::span<const std::uint8_t> coded, const TakeInfo& info,
+                              const Take& empty) {
+  std::string text = decode_text(coded, known_text(empty), info.text_bytes);
+  if (text.size() == info.text_bytes) return text;
+  throw Error(ErrorCode::damaged, "the archive is damaged: the text of take '" + info.name +
+                                      "' is not as long as it was");
+}
+
 ChannelMatrix parsed_channels(const Take& empty, const std::string& text, const std::string& name) {
   try {
     Take parsed = empty.skeleton->format == MotionFormat::bvh
@@ -75,7 +84,7 @@ ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::str
     case LayerKind::refinement:
       return decode_refinement(*empty.skeleton, shape, stored.bytes);
     case LayerKind::text: {
-      std::string decoded = decode_text(stored.bytes, known_text(empty));
+      std::string decoded = decode_whole_text(stored.bytes, info, empty);
       ChannelMatrix channels = parsed_channels(empty, decoded, info.name);
       if (text != nullptr) *text = std::move(decoded);
       return channels;
@@ -128,7 +137,7 @@ Take decode_layer(OpenArchive& archive, const TakeRecord& record, std::size_t la
 std::string decode_source_text(OpenArchive& archive, const TakeRecord& record) {
   const std::size_t layer = layer_for(record, FidelityTier::exact);
   const Take empty = empty_take(archive.proportions(record.proportions), record.info.format);
-  return decode_text(archive.store.layer(record.info.id, layer), known_text(empty));
+  return decode_whole_text(archive.store.layer(record.info.id, layer), record.info, empty);
 }
 
 }  // namespace reprise

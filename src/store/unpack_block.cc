@@ -16,6 +16,9 @@ constexpr std::size_t most_texts = std::size_t{1} << 28;
 constexpr std::int64_t most_id = std::int64_t{1} << 62;
 constexpr std::int64_t most_step = std::int64_t{1} << 61;  ///< from a take to another
 constexpr std::uint64_t most_frames = std::uint64_t{1} << 40;
+/// Of an error or a limit: up to this, what was divided to be millimetres is the same number again
+/// when it is packed.
+constexpr std::uint64_t most_micrometres = std::uint64_t{1} << 50;
 
 [[noreturn]] void throw_damaged() {
   throw Error(ErrorCode::damaged, "the archive is damaged: a block of takes makes no sense");
@@ -75,6 +78,10 @@ class Unpacker {
     return static_cast<Number>(value);
   }
 
+  static double millimetres(std::uint64_t micrometres) {
+    return checked<double>(micrometres, most_micrometres) / 1000.0;
+  }
+
   void unpack_numbers() {
     std::size_t next = 0;
     column([&](StoredTake& take, std::uint64_t gap) {
@@ -108,7 +115,7 @@ class Unpacker {
   void unpack_errors() {
     const auto error = [&](double PositionErrors::*member) {
       column([member](StoredTake& t, std::uint64_t v) {
-        t.record.info.error_mm.*member = static_cast<double>(v) / 1000.0;
+        t.record.info.error_mm.*member = millimetres(v);
       });
     };
     error(&PositionErrors::mean);
@@ -145,7 +152,7 @@ class Unpacker {
       t.record.layers[i].kind = kind;
     });
     columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
-      t.record.layers[i].limit_mm = static_cast<double>(v) / 1000.0;
+      t.record.layers[i].limit_mm = millimetres(v);
     });
     std::size_t offset = 0;
     columns(count, [&](StoredTake& t, std::size_t i, std::uint64_t v) {

@@ -1,5 +1,6 @@
 // Records that are whole, as their digests say, and do not fit each other: somebody made them so.
 #include "archive/archive_fixture.h"
+#include "exact/text_codec.h"
 #include "refine/coded_channels.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"
@@ -105,6 +106,14 @@ TEST_F(FalseRecords, TextsThatNoFileHasAreDamage) {
   short_.info.frames = long{1} << 40;
   short_.info.text_bytes = std::uint64_t{1} << 60;
   expect_damage(short_, "a text of an exabyte");
+}
+
+TEST_F(FalseRecords, TextsLongerThanTheyWereAreDamage) {
+  // A few coded bytes can be any number of empty lines: what a text may take is known beforehand.
+  const std::string text = chain_bvh(1, 40) + std::string(100'000, '\n');
+  short_.layers.push_back(
+      {LayerKind::text, 0.0, encode_text(text, text.substr(0, text.find("MOTION")))});
+  expect_damage(short_, "a text with lines that its file did not have");
 }
 
 TEST_F(FalseRecords, FramesThatNoLayerHoldsAreDamage) {

@@ -80,7 +80,8 @@ std::size_t zstd_size(std::string_view text) {
 
 std::vector<std::uint8_t> expect_round_trip(std::string_view text, std::string_view known) {
   const auto coded = encode_text(text, known);
-  EXPECT_EQ(decode_text(coded, known), text);
+  EXPECT_EQ(decode_text(coded, known, text.size()), text);
+  if (!text.empty()) EXPECT_THROW(decode_text(coded, known, text.size() - 1), Error);
   EXPECT_LE(coded.size(), zstd_size(text));
   return coded;
 }

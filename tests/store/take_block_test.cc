@@ -109,6 +109,16 @@ TEST(TakeBlock, TakesComeBack) {
   }
 }
 
+TEST(TakeBlock, ErrorsTooLargeToComeBackAreAnError) {
+  // Packed again when a take is added beside it, such a take would get another error.
+  TakeBlock block = sample_block(2, 1);
+  block.takes[1].record.info.error_mm.max = 4.5e12;
+  EXPECT_THROW(unpack_block(block.id, pack_block(block)), Error);
+  block = sample_block(2, 1);
+  block.takes[0].record.layers[0].limit_mm = 4.5e12;
+  EXPECT_THROW(unpack_block(block.id, pack_block(block)), Error);
+}
+
 TEST(TakeBlock, OtherBytesAreAnErrorOrABlock) {
   const Bytes good = pack_block(sample_block(20, 2));
   std::mt19937 random(3);
