@@ -46,7 +46,8 @@ TEST_F(SearchTest, AClipIsAPartOfItsTake) {
 }
 
 TEST_F(SearchTest, APartOutsideItsClipOrWithoutLengthIsWrongUsage) {
-  for (const json& clip : document({"list", "lib.rpz", "--clips"}).at("clips")) {
+  const json clips = document({"list", "lib.rpz", "--clips"}).at("clips");
+  for (const json& clip : clips) {
     if (clip.at("start") == 0.0) continue;
     const Outcome before =
         reprise({"search", "lib.rpz", "--id", clip.at("id"), "--from", "0", "--to", "0.5"});
@@ -61,11 +62,13 @@ TEST_F(SearchTest, APartOutsideItsClipOrWithoutLengthIsWrongUsage) {
 
 TEST_F(SearchTest, AWholeTakeEndsWhereItEnds) {
   std::map<std::string, double> seconds;
-  for (const json& take : document({"list", "lib.rpz"}).at("takes")) {
+  const json takes = document({"list", "lib.rpz"}).at("takes");
+  for (const json& take : takes) {
     seconds[take.at("name")] = take.at("seconds");
   }
   const std::string take = take_names()[0];
-  for (const json& result : document({"search", "lib.rpz", "--id", take}).at("results")) {
+  const json results = document({"search", "lib.rpz", "--id", take}).at("results");
+  for (const json& result : results) {
     EXPECT_EQ(result.at("start"), 0.0);
     EXPECT_EQ(result.at("end"), seconds.at(result.at("take")));
   }
