@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "query/archive_impl.h"
 #include "query/clip_info.h"
@@ -54,6 +55,26 @@ std::string candidate_list(const std::vector<std::string>& names) {
               "reprise list shows the names");
 }
 
+/// A name need not be UTF-8, a JSON document must be: there is U+FFFD in place of other bytes.
+constexpr const char* replacement_character = "\xEF\xBF\xBD";
+
+std::string shown_in_document(const std::string& name) {
+  using nlohmann::json;
+  const std::string text = json(name).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json::parse(text).get<std::string>();
+}
+
+/// Names by what a document shows of them: an ID that came out of one is good for other commands.
+std::vector<std::string> names_shown_as(const ArchiveStore& store, const std::string& id) {
+  std::vector<std::string> names;
+  if (id.find(replacement_character) == std::string::npos) return names;
+  for (const TakeInfo& take : store.takes({})) {
+    const std::string shown = shown_in_document(take.name);
+    if (shown == id || shown.ends_with("/" + id)) names.push_back(take.name);
+  }
+  return names;
+}
+
 /// Names that are this one or end in it after a slash. Of x.bvh beside x.amc, whose extensions are
 /// parts of their names, x is both.
 std::vector<std::string> names_meant(const ArchiveStore& store, const std::string& id) {
@@ -63,7 +84,7 @@ std::vector<std::string> names_meant(const ArchiveStore& store, const std::strin
     std::ranges::move(store.take_names_ending_in(id + extension, most_candidates + 1),
                       std::back_inserter(names));
   }
-  return names;
+  return names.empty() ? names_shown_as(store, id) : names;
 }
 
 }  // namespace

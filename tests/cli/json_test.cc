@@ -180,5 +180,25 @@ TEST_F(JsonTest, NamesThatAreNotUtf8StillGiveADocument) {
   EXPECT_EQ(document({"list", "odd.rpz"}).at("takes").size(), 1U);
 }
 
+TEST_F(JsonTest, IdsOfNamesThatAreNotUtf8AreGoodForOtherCommands) {
+  make_library();
+  const std::string text = read_file(folder() / "takes" / (take_names().front() + ".bvh"));
+  for (const char* name : {"a/b\xE4r", "a/\xE4\xB8z\xC0\x80", "a/\xC3\xA4\xED\xA0\x80"}) {
+    write_file(folder() / "odd" / (std::string(name) + ".bvh"), text);
+  }
+  output({"ingest", "odd.rpz", "odd", "--no-repeats"});
+  for (const json& take : document({"list", "odd.rpz"}).at("takes")) {
+    const auto id = take.at("id").get<std::string>();
+    EXPECT_EQ(document({"info", "odd.rpz", id}).at("take").at("id"), id);
+    EXPECT_EQ(document({"info", "odd.rpz", id.substr(2)}).at("take").at("id"), id);
+  }
+  // Two names that look the same in a document: neither is meant.
+  write_file(folder() / "odd" / "a" / "b\xF6r.bvh", text);
+  output({"ingest", "odd.rpz", "odd", "--no-repeats"});
+  EXPECT_EQ(reprise({"remove", "odd.rpz", "b\xEF\xBF\xBDr"}).exit_code, 7);
+  output({"remove", "odd.rpz", "b\xF6r"});
+  EXPECT_EQ(document({"remove", "odd.rpz", "b\xEF\xBF\xBDr"}).at("removed").size(), 1U);
+}
+
 }  // namespace
 }  // namespace reprise::cli
