@@ -132,10 +132,10 @@ struct ArchiveInfo {
 };
 
 struct Damage {
-  std::string id;  ///< take, clip or part of the archive
+  std::string id;  ///< take, clip or part of the archive, or a folder of sources
   std::string why;
-  bool outside_fidelity =
-      false;  ///< a take that decodes, but is further from its source than promised
+  bool outside_fidelity = false;  ///< the archive is whole, but a take is further from its source
+                                  ///< than promised, or its source is not at hand
 };
 
 struct VerifyReport {
@@ -143,6 +143,7 @@ struct VerifyReport {
   std::size_t takes = 0;
   std::size_t clips = 0;
   std::vector<Damage> damaged;
+  std::size_t measured = 0;  ///< takes that `error_mm` is of
   PositionErrors
       error_mm;  ///< measured against the sources where `against` was given, else as stored
 };

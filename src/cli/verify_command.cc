@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "cli/interruption.h"
 #include "cli/json_output.h"
@@ -32,8 +31,7 @@ std::string report_text(const VerifyReport& report, bool measured) {
   for (const Damage& damage : report.damaged) {
     text += printable(fmt::format("{}: {}", damage.id, damage.why)) + "\n";
   }
-  // Each damage is of one take where takes were measured.
-  if (std::cmp_greater(report.takes, measured ? report.damaged.size() : 0)) {
+  if (report.measured > 0) {
     text += fmt::format("error {}: {}\n", measured ? "against the sources" : "as stored",
                         format_errors(report.error_mm));
   }

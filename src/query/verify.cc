@@ -1,12 +1,14 @@
 // Reads and decodes everything, and holds it against its sources where they are at hand.
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "query/archive_impl.h"
 #include "query/distance_tally.h"
+#include "query/source_folder.h"
 #include "query/take_decoder.h"
 #include "reprise/error.h"
 #include "store/digest.h"
@@ -15,58 +17,6 @@ namespace reprise {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Calls `use` with a name, and with what is left of it after each of its slashes.
-template <class Use>
-void for_each_end(const std::string& name, const Use& use) {
-  for (std::size_t at = 0; at != std::string::npos;) {
-    use(name.substr(at));
-    const std::size_t slash = name.find('/', at);
-    at = slash == std::string::npos ? slash : slash + 1;
-  }
-}
-
-/// Motion files below a folder by the names that an ingest of it gives takes, and by the ends of
-/// those that no other file has: an ingest of the files themselves gives takes no folder.
-std::map<std::string, fs::path> sources_under(const fs::path& folder) {
-  std::map<std::string, fs::path> sources;
-  std::map<std::string, std::vector<fs::path>> by_end;
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw Error(ErrorCode::failed,
-                fs::exists(folder, error) ? "this is not a folder" : "there is no such folder",
-                {folder.string()});
-  }
-  fs::recursive_directory_iterator entry(folder, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    std::error_code ignored;
-    if (!entry->is_regular_file(ignored) || !is_motion_file(entry->path())) continue;
-    fs::path relative = entry->path().lexically_relative(folder);
-    for (const std::string& name :
-         {relative.generic_string(), relative.replace_extension().generic_string()}) {
-      sources.emplace(name, entry->path());
-      for_each_end(name, [&](const std::string& end) { by_end[end].push_back(entry->path()); });
-    }
-  }
-  if (error) {
-    throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
-                {folder.string()});
-  }
-  for (const auto& [end, files] : by_end) {
-    if (files.size() == 1) sources.emplace(end, files.front());
-  }
-  return sources;
-}
-
-const fs::path* source_of(const std::map<std::string, fs::path>& sources, const std::string& take) {
-  const fs::path* source = nullptr;
-  // A prefix of the ingest stands before the name under the folder.
-  for_each_end(take, [&](const std::string& end) {
-    const auto found = sources.find(end);
-    if (source == nullptr && found != sources.end()) source = &found->second;
-  });
-  return source;
-}
 
 /// What a layer promises and does not keep; empty where it keeps it.
 std::string broken_promise(const LayerRecord& layer, const PositionErrors& errors) {
@@ -154,8 +104,11 @@ class TakeCheck {
 VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadOptions& read,
                              const ProgressSink& progress) const {
   VerifyReport report;
-  std::map<std::string, fs::path> sources;
-  if (against) sources = sources_under(*against);
+  const auto go_on = [&](const Progress& now) {
+    if (progress && !progress(now)) throw Error(ErrorCode::interrupted, "stopped");
+  };
+  std::optional<SourceFolder> sources;
+  if (against) sources.emplace(*against, [&] { go_on({}); });
   std::vector<TakeInfo> all;
   std::optional<ArchiveStore::Snapshot> snapshot = impl_->snapshot();
   const std::int64_t state = impl_->store.state_number();
@@ -170,11 +123,10 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
   }
   snapshot.reset();
   report.takes = all.size();
+  if (!against) report.measured = all.size();
   DistanceTally distances;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (progress && !progress({i, all.size(), all[i].name})) {
-      throw Error(ErrorCode::interrupted, "stopped");
-    }
+    go_on({i, all.size(), all[i].name});
     try {
       // A writer waits for one take at most. What it takes out meanwhile is no damage.
       const ArchiveStore::Snapshot snapshot_of_take = impl_->snapshot();
@@ -182,19 +134,23 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       std::optional<TakeRecord> record =
           changed ? impl_->store.find_take(all[i].name) : impl_->store.take(all[i].id);
       if (!record) continue;
-      const fs::path* source = against ? source_of(sources, all[i].name) : nullptr;
+      const fs::path* source = sources ? sources->source_of(all[i].name) : nullptr;
       TakeCheck check(*impl_, std::move(*record));
       for (Damage& damage : check.run(source, read)) report.damaged.push_back(std::move(damage));
       if (against && source == nullptr) {
         report.damaged.push_back({all[i].name, "its source is not in the folder", true});
       }
       distances.add(check.distances());
+      if (!check.distances().empty()) ++report.measured;
     } catch (const Error& error) {
       if (error.code() == ErrorCode::interrupted) throw;
       report.damaged.push_back({all[i].name, error.reason()});
     }
   }
-  if (against) report.error_mm = distances.errors();
+  if (sources) {
+    std::ranges::copy(sources->unread(), std::back_inserter(report.damaged));
+    report.error_mm = distances.errors();
+  }
   report.ok = report.damaged.empty();
   return report;
 }

@@ -80,6 +80,24 @@ TEST_F(CommandTest, SourcesAreFoundByTheEndsOfNames) {
   EXPECT_EQ(report.at("damaged")[0].at("id"), "s01_01");
 }
 
+TEST_F(CommandTest, AFolderOfSourcesThatCannotBeReadLeavesTheRestMeasured) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  make_library();
+  const fs::path closed = folder() / "takes" / "s01";
+  fs::permissions(closed, fs::perms::none);
+  const nlohmann::json report = document({"verify", "lib.rpz", "--against", "takes"}, 1);
+  const Outcome told = reprise({"verify", "lib.rpz", "--against", "takes"});
+  fs::permissions(closed, fs::perms::owner_all);
+  std::map<std::string, std::string> why;
+  for (const auto& damage : report.at("damaged")) why[damage.at("id")] = damage.at("why");
+  EXPECT_NE(why["takes/s01"].find("the folder cannot be read"), std::string::npos);
+  EXPECT_EQ(why["s01/s01_01"], "its source is not in the folder");
+  EXPECT_FALSE(why.contains("s02/s02_01"));
+  EXPECT_GT(report.at("error_mm").at("max"), 0.0);
+  EXPECT_EQ(told.exit_code, 1);
+  EXPECT_NE(told.out.find("error against the sources"), std::string::npos) << told.out;
+}
+
 TEST_F(CommandTest, SourcesAreMeasuredInTheUnitTheyWereStoredIn) {
   output({"synth", "takes", "--takes", "2", "--seconds", "2", "--subjects", "2"});
   output({"ingest", "lib.rpz", "takes/s01", "--unit-mm", "25.4"});
