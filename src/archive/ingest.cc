@@ -35,7 +35,7 @@ class Ingest {
   IngestReport run() {
     if (options_.read.asf) read_whole_file(*options_.read.asf);
     if (options_.metadata) metadata_ = MetadataTable::read(*options_.metadata);
-    InputFiles inputs = find_input_files(options_.paths, options_.prefix);
+    InputFiles inputs = find_input_files(options_.paths, options_.prefix, [&] { tick({}); });
     report_.rejected = std::move(inputs.rejected);
     files_ = std::move(inputs.files);
     std::vector<std::string> names;

@@ -36,7 +36,8 @@ std::string hindrance(const fs::directory_entry& entry) {
 
 /// The files of one argument, with their paths under it.
 std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
-                                                       std::vector<RejectedInput>& rejected) {
+                                                       std::vector<RejectedInput>& rejected,
+                                                       const std::function<void()>& pulse) {
   std::vector<std::pair<fs::path, fs::path>> found;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -58,6 +59,7 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
   if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
   for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
+    pulse();
     const std::string why = hindrance(*entry);
     if (!why.empty()) rejected.push_back({entry->path().string(), 0, why});
     std::error_code ignored;
@@ -82,10 +84,12 @@ struct FoundFile {
 /// Each file once: by a name of its own rather than a link's, and with the most folders in it. The
 /// order of arguments, and that of a folder's entries, do not matter.
 std::vector<FoundFile> files_of(const std::vector<fs::path>& arguments,
-                                std::vector<RejectedInput>& rejected) {
+                                std::vector<RejectedInput>& rejected,
+                                const std::function<void()>& pulse) {
   std::vector<FoundFile> files;
   for (const fs::path& argument : arguments) {
-    for (auto& [path, relative] : files_under(argument, rejected)) {
+    for (auto& [path, relative] : files_under(argument, rejected, pulse)) {
+      pulse();
       std::error_code ignored;
       const fs::path full = fs::weakly_canonical(path, ignored);
       files.push_back({full.empty() ? path : full, fs::is_symlink(path, ignored),
@@ -105,10 +109,11 @@ std::string name_without_extension(const fs::path& path) {
 
 }  // namespace
 
-InputFiles find_input_files(const std::vector<fs::path>& paths, const std::string& prefix) {
+InputFiles find_input_files(const std::vector<fs::path>& paths, const std::string& prefix,
+                            const std::function<void()>& pulse) {
   InputFiles result;
   std::map<std::string, std::vector<std::pair<fs::path, fs::path>>> by_name;
-  for (const FoundFile& file : files_of(paths, result.rejected)) {
+  for (const FoundFile& file : files_of(paths, result.rejected, pulse)) {
     by_name[name_without_extension(file.relative)].emplace_back(file.path, file.relative);
   }
   std::set<std::string> used;

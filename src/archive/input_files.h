@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct InputFiles {
 /// Files are taken as they are, folders searched through for motion files; links to folders are not
 /// followed. A file that is reached in several ways is one input, whatever the order of `paths`.
 /// Folders below that cannot be read, and links to no file, are rejected. Throws Error (failed) for
-/// a path that is not there or cannot be read.
+/// a path that is not there or cannot be read. `pulse` is called again and again meanwhile; what it
+/// throws ends the search.
 InputFiles find_input_files(const std::vector<std::filesystem::path>& paths,
-                            const std::string& prefix);
+                            const std::string& prefix, const std::function<void()>& pulse);
 
 }  // namespace reprise

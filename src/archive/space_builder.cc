@@ -25,6 +25,7 @@ SkeletonRecord skeleton_record(const Skeleton& skeleton, const Digest& structure
 std::map<std::string, SpaceAssignment> SpaceBuilder::build(
     const std::vector<FreshTake>& takes, const std::function<void(const std::string&)>& tick) {
   takes_ = &takes;
+  tick_ = tick;
   if (takes.empty()) return {};
   SpaceTrainer trainer(takes, options_, tick);
   std::map<std::string, Members> by_structure;
@@ -119,6 +120,7 @@ SpaceBuilder::Members SpaceBuilder::members_outside(const Members& members) cons
       },
       [&](std::size_t m, bool unfits) {
         if (unfits) unfit.push_back(members[m]);
+        tick_({});
       });
   return unfit;
 }

@@ -25,7 +25,7 @@ class SpaceBuilder {
       : store_(store), options_(options) {}
 
   /// One assignment a take, by name. Stores skeletons, proportions and spaces, in one transaction a
-  /// skeleton structure.
+  /// skeleton structure. `tick` is called without a name, too, only to ask whether to go on.
   std::map<std::string, SpaceAssignment> build(const std::vector<FreshTake>& takes,
                                                const std::function<void(const std::string&)>& tick);
 
@@ -52,6 +52,7 @@ class SpaceBuilder {
 
   ArchiveStore& store_;
   const IngestOptions& options_;
+  std::function<void(const std::string&)> tick_;
   const std::vector<FreshTake>* takes_ = nullptr;
   std::map<std::string, SpaceAssignment> assignments_;
 };
