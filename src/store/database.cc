@@ -68,8 +68,10 @@ Database::Database(const std::filesystem::path& path, Mode mode) : path_(path) {
   sqlite3* raw = nullptr;
   const int flags =
       mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  // SQLite takes the names :memory: and file:... for something else than files.
+  const std::filesystem::path file = path.is_absolute() ? path : "." / path;
   const int result = sqlite3_open_v2(
-      path.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, page_checksum_vfs());
+      file.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, page_checksum_vfs());
   handle_.reset(raw);
   if (result != SQLITE_OK) fail(result);
   wait_for_locks(mode == Mode::read ? LockWaits::reader_ms : LockWaits::writer_ms);

@@ -176,6 +176,17 @@ TEST_F(ErrorsTest, SecondWriterIsSix) {
   EXPECT_EQ(reprise({"ingest", "lib.rpz", "takes", "--prefix", "more"}).exit_code, 0);
 }
 
+TEST_F(ErrorsTest, NamesThatSqliteHasAMeaningForAreNamesOfFiles) {
+  make_library();
+  for (const std::string name : {":memory:", "file:lib.rpz", "file:other.rpz?mode=memory", "-x"}) {
+    const Outcome outcome = reprise({"ingest", "--no-repeats", "--", name, "takes"});
+    EXPECT_EQ(outcome.exit_code, 0) << name << outcome.err;
+    EXPECT_EQ(take_names("./" + name), take_names()) << name;
+    EXPECT_EQ(reprise({"verify", "--", name}).exit_code, 0) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder() / "other.rpz"));
+}
+
 TEST_F(ErrorsTest, AFolderThatMayNotBeWrittenIsCalledThat) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   make_library();
