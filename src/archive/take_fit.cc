@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contacts/contact_choice.h"
+#include "quant/coarsest_step.h"
 
 namespace reprise {
 namespace {
@@ -36,30 +37,18 @@ class StepSearch {
   }
 
  private:
-  /// The mean error grows with about this power of the step.
-  static constexpr double error_exponent = 0.8;
-
-  /// The coarsest step that keeps the mean, by the error's near proportion to the step.
+  /// The coarsest step that keeps the mean.
   FittedTake search(int step) {
-    int good = -1, bad = QuantiserConstants::most_step + 1;
     FittedTake best;
-    while (good + 1 < bad) {
-      FittedTake tried = measure(step);
+    const StepRange range{QuantiserConstants::most_step, QuantiserConstants::steps_per_octave,
+                          step};
+    const int found = coarsest_step(range, allowed_, [&](int index) {
+      FittedTake tried = measure(index);
       const double mean = tried.errors.mean;
-      if (mean <= allowed_) {
-        good = step;
-        best = std::move(tried);
-      } else {
-        bad = step;
-      }
-      const double ratio = allowed_ / std::max(mean, 1e-6);
-      const int move = static_cast<int>(
-          std::lround(QuantiserConstants::steps_per_octave * std::log2(ratio) / error_exponent));
-      step = good == step ? step + std::max(move, 1) : step + std::min(move, -1);
-      step = std::clamp(step, good + 1, std::max(bad - 1, good + 1));
-      step = std::min(step, QuantiserConstants::most_step);
-    }
-    best.kept = good >= 0;
+      if (mean <= allowed_) best = std::move(tried);
+      return mean;
+    });
+    best.kept = found >= 0;
     return best;
   }
 

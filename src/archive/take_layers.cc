@@ -1,6 +1,7 @@
 #include "archive/take_layers.h"
 
 #include "exact/text_codec.h"
+#include "refine/coarse_channels.h"
 #include "refine/refinement.h"
 
 namespace reprise {
@@ -19,9 +20,14 @@ class LayerMaker {
   LayerMaker(const CodedSpace& space, const Take& take, bool contacts)
       : space_(space), take_(take), contacts_(contacts) {}
 
-  void add_coefficients(FittedTake fitted, double mean_mm) {
+  /// On the axes of the space, or channel by channel where that is smaller.
+  void add_coarsest(FittedTake fitted, double mean_mm) {
     const TakeShape shape{take_.frames(), take_.frame_rate};
     Bytes data = encode_motion(space_.model, space_.space, shape, fitted.motion);
+    if (auto coarse = coarse_channels(take_, {mean_mm, contacts_, data.size()})) {
+      add_channels(LayerKind::channels, mean_mm, "curves", std::move(*coarse));
+      return;
+    }
     const std::size_t all = data.size();
     fitted.motion.contacts = {};
     const std::size_t curves =
@@ -33,13 +39,8 @@ class LayerMaker {
   }
 
   void add_refinement(double bound_mm) {
-    Refinement refined = refine(take_, {bound_mm, contacts_});
-    const std::size_t contacts = refined.contact_bytes, rest = refined.bytes.size() - contacts;
-    add(LayerKind::refinement, bound_mm, {{"refinement", rest}, {"contacts", contacts}},
-        std::move(refined.bytes));
-    made_.distances = joint_distances(joint_positions(*take_.skeleton, take_.channels),
-                                      joint_positions(*take_.skeleton, refined.decoded));
-    made_.errors = summarise_distances(made_.distances);
+    add_channels(LayerKind::refinement, bound_mm, "refinement",
+                 refine(take_, {bound_mm, contacts_}));
   }
 
   void add_text(const std::string& text) {
@@ -53,6 +54,13 @@ class LayerMaker {
   TakeLayers finish() { return std::move(made_); }
 
  private:
+  void add_channels(LayerKind kind, double limit_mm, const char* part, Refinement channels) {
+    const std::size_t contacts = channels.contact_bytes, rest = channels.bytes.size() - contacts;
+    add(kind, limit_mm, {{part, rest}, {"contacts", contacts}}, std::move(channels.bytes));
+    made_.distances = joint_distances(joint_positions(*take_.skeleton, take_.channels),
+                                      joint_positions(*take_.skeleton, channels.decoded));
+    made_.errors = summarise_distances(made_.distances);
+  }
   void add(LayerKind kind, double limit_mm, const char* part, Bytes data) {
     const std::size_t size = data.size();
     add(kind, limit_mm, {{part, size}}, std::move(data));
@@ -82,7 +90,7 @@ class LayerMaker {
 TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
                        const std::string& text, FittedTake fitted) {
   LayerMaker maker(space, take, options.contacts);
-  maker.add_coefficients(std::move(fitted), coarse_mean_mm(options.fidelity));
+  maker.add_coarsest(std::move(fitted), coarse_mean_mm(options.fidelity));
   if (const auto bound = bound_of(options.fidelity)) maker.add_refinement(*bound);
   if (options.fidelity.tier == FidelityTier::exact) maker.add_text(text);
   return maker.finish();

@@ -82,6 +82,7 @@ ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::str
       }
       return decode_take(*stored.space, *empty.skeleton, shape, stored.bytes);
     case LayerKind::refinement:
+    case LayerKind::channels:
       return decode_refinement(*empty.skeleton, shape, stored.bytes);
     case LayerKind::text: {
       std::string decoded = decode_whole_text(stored.bytes, info, empty);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// What a layer promises and does not keep; empty where it keeps it.
 std::string broken_promise(const LayerRecord& layer, const PositionErrors& errors) {
-  const bool mean = layer.kind == LayerKind::coefficients;
+  const bool mean = layer.kind == LayerKind::coefficients || layer.kind == LayerKind::channels;
   const double measured = mean ? errors.mean : errors.max;
   if (measured <= layer.limit_mm) return {};
   return std::string("its ") + (mean ? "mean" : "greatest") + " error is " +

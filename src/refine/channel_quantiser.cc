@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "quant/catmull_rom.h"
+#include "refine/knot_rounding.h"
 
 namespace reprise {
 namespace {
@@ -16,8 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// A knot is rounded up from 0.5 + this part of its step on: zeros cost least.
-constexpr double dead_zone = 0.14;
 /// Turns about a straight limb move nothing, up to some angle: beyond it compensation, which is
 /// linear, goes wrong. The arm (mm) that holds them grows with the root of the bound (mm).
 constexpr double arm_at_one_mm = 20;
@@ -169,26 +168,12 @@ void ChannelQuantiser::expect(std::size_t place) {
 }
 
 void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded) {
-  const Index frames = take_.frames();
-  const int levels = coded.shape.levels;
   Trajectory& channel = channels_[i];
   const auto place = static_cast<Index>(i);
   const auto source = sources_.col(place);
   MatrixXd column = source - channel.residual.cast<double>();
-  NestedKnots::from_frames(column, levels);
-  double coarsest = 0;
-  bool wild = coded.steps.base[i] < 0;
-  for (Index f = 0; f < frames && !wild; ++f) {
-    const bool follows = knot_level(f, levels) == levels;
-    const double step = coded.steps.step(i, f);
-    const double value = (column(f, 0) - (follows ? coarsest : 0.0)) / step;
-    const double magnitude = std::floor(std::abs(value) + (follows ? 0.5 : 0.5 - dead_zone));
-    wild = !(magnitude < most_knot);
-    if (wild) break;
-    coded.knots(f, place) = static_cast<std::int32_t>(value < 0 ? -magnitude : magnitude);
-    if (follows) coarsest += coded.knots(f, place) * step;
-  }
-  if (wild) store(i, coded);
+  NestedKnots::from_frames(column, coded.shape.levels);
+  if (coded.steps.base[i] < 0 || !round_knots(column, i, coded)) store(i, coded);
   decoded_.col(place) = coded.trajectory(i);
   channel.residual += (decoded_.col(place) - source).cast<float>();
 }

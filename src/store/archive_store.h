@@ -67,7 +67,8 @@ struct SpaceChain {
 enum class LayerKind : std::uint8_t {
   coefficients = 1,  ///< the take on the axes of its space; its mean error is bounded
   refinement = 2,    ///< angles that keep every joint of every frame within a bound
-  text = 3           ///< the source file byte for byte
+  text = 3,          ///< the source file byte for byte
+  channels = 4       ///< angles as in a refinement; the take's mean error is bounded
 };
 
 /// One part of a coded take. Layers stand from the coarsest to the finest, and each is read alone.

@@ -147,7 +147,7 @@ class Unpacker {
     });
     const auto count = [](const StoredTake& t) { return t.places.size(); };
     columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
-      const auto kind = checked<LayerKind>(v, static_cast<std::uint64_t>(LayerKind::text));
+      const auto kind = checked<LayerKind>(v, static_cast<std::uint64_t>(LayerKind::channels));
       if (kind < LayerKind::coefficients) throw_damaged();
       t.record.layers[i].kind = kind;
     });

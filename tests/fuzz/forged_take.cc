@@ -20,7 +20,7 @@ void edit_take(TakeRecord& take, FuzzInput& input) {
       edit(layer.data, input);
       break;
     case 1:
-      layer.kind = static_cast<LayerKind>(1 + input.choice(3));
+      layer.kind = static_cast<LayerKind>(1 + input.choice(4));
       break;
     case 2:
       layer.limit_mm = real(input);

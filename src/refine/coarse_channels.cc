@@ -1,0 +1,138 @@
+#include "refine/coarse_channels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/contact_choice.h"
+#include "quant/coarsest_step.h"
+#include "refine/channel_quantiser.h"
+#include "reprise/model/kinematics.h"
+#include "reprise/model/measure.h"
+
+namespace reprise {
+namespace {
+
+/// Indices of steps: step_one is a step of 1 mm.
+constexpr int steps_per_octave = 32, step_one = 320, most_step = 1023;
+/// The step for a millimetre of mean error, about, and how large displacements are that the
+/// quantiser expects (docs/findings/2026-11-26-coarse-channels.md).
+constexpr double step_per_millimetre = 3, reach_per_millimetre = 3;
+/// Seconds between the coarsest knots.
+constexpr double spans_s[] = {1.06, 2.12};
+/// Bytes times mean error changes by less than this while a step is searched for.
+constexpr double hope = 1.3;
+/// A step is kept only if the mean is this much below what was promised (part of it), for decimals
+/// of a file and other machines' sines.
+constexpr double margin = 1e-4;
+
+double step_mm(int index) {
+  return std::exp2(static_cast<double>(index - step_one) / steps_per_octave);
+}
+
+class CoarseSearch {
+ public:
+  CoarseSearch(const Take& take, const CoarseOptions& options)
+      : take_(take),
+        options_(options),
+        allowed_(options.mean_mm * (1 - margin)),
+        positions_(joint_positions(*take.skeleton, take.channels)),
+        quantiser_(take, reach_per_millimetre * options.mean_mm) {}
+
+  std::optional<Refinement> run() {
+    int step =
+        step_one + static_cast<int>(std::lround(steps_per_octave *
+                                                std::log2(step_per_millimetre * options_.mean_mm)));
+    if (!choose_span(step)) return std::nullopt;
+    std::optional<Candidate> best = search(step);
+    if (!best || best->bytes.size() > options_.most_bytes) return std::nullopt;
+    if (options_.contacts) {
+      contacts_ = choose_contacts(*take_.skeleton, best->coded.legs, take_.frame_rate, positions_,
+                                  best->decoded);
+      if (!contacts_.intervals.empty()) {
+        // What the source's feet slide may be more than the error that is allowed.
+        if (auto held = search(best->step)) best = std::move(held);
+      }
+    }
+    if (best->bytes.size() > options_.most_bytes) return std::nullopt;
+    const std::size_t contact_bytes = std::min(best->bytes.size(), best->coded.contact_bytes());
+    return Refinement{std::move(best->bytes), std::move(best->decoded), best->max_mm,
+                      contact_bytes};
+  }
+
+ private:
+  struct Candidate {
+    CodedChannels coded;
+    ChannelMatrix decoded;
+    int step = 0;
+    double mean_mm = 0, max_mm = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  Candidate measure(int step, TimeScales scales) {
+    Candidate tried{CodedChannels(*take_.skeleton, {take_.frames(), take_.frame_rate}, scales),
+                    {},
+                    step,
+                    0,
+                    0,
+                    {}};
+    quantiser_.set_steps(step_mm(step), tried.coded.steps);
+    tried.decoded = quantiser_.quantise(tried.coded);
+    tried.coded.contacts = contacts_;
+    tried.coded.hold_feet(*take_.skeleton, tried.decoded);
+    const auto distances =
+        joint_distances(positions_, joint_positions(*take_.skeleton, tried.decoded));
+    for (const float distance : distances) {
+      tried.mean_mm += distance;
+      tried.max_mm = std::max<double>(tried.max_mm, distance);
+    }
+    tried.mean_mm /= static_cast<double>(std::max<std::size_t>(1, distances.size()));
+    return tried;
+  }
+
+  /// The span with which bytes and error are least at a step; false: both are too large to hope for
+  /// `most_bytes`.
+  bool choose_span(int step) {
+    double least = hope * static_cast<double>(options_.most_bytes) * options_.mean_mm;
+    bool found = false;
+    for (const double span : spans_s) {
+      const TimeScales scales = time_scales({take_.frames(), take_.frame_rate}, span);
+      if (found && scales == scales_) continue;
+      const Candidate tried = measure(step, scales);
+      const double cost = static_cast<double>(tried.coded.encode().size()) * tried.mean_mm;
+      if (!(cost < least)) continue;
+      least = cost;
+      scales_ = scales;
+      found = true;
+    }
+    return found;
+  }
+
+  std::optional<Candidate> search(int first) {
+    std::optional<Candidate> best;
+    coarsest_step({most_step, steps_per_octave, first}, allowed_, [&](int step) {
+      Candidate tried = measure(step, scales_);
+      const double mean = tried.mean_mm;
+      if (mean <= allowed_) best = std::move(tried);
+      return mean;
+    });
+    if (best) best->bytes = best->coded.encode();
+    return best;
+  }
+
+  const Take& take_;
+  const CoarseOptions& options_;
+  double allowed_;
+  PositionMatrix positions_;
+  ChannelQuantiser quantiser_;
+  TimeScales scales_;
+  TakeContacts contacts_;
+};
+
+}  // namespace
+
+std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions& options) {
+  if (take.frames() == 0) return std::nullopt;
+  return CoarseSearch(take, options).run();
+}
+
+}  // namespace reprise
