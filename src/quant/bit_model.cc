@@ -38,9 +38,9 @@ std::uint32_t cost_of(Probability one, bool bit) {
 
 BitMixer::BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets,
                    Learning learning)
-    : weights_(weight_sets * BitModelConstants::inputs, learning.start_weight),
-      learning_(learning) {
+    : weights_(weight_sets * weights_of_set, learning.start_weight), learning_(learning) {
   assert(table_sizes.size() == BitModelConstants::inputs);
+  for (std::size_t s = 0; s < weight_sets; ++s) weights_[s * weights_of_set + inputs] = 0;
   for (std::size_t t = 0; t < tables_.size(); ++t) tables_[t].resize(table_sizes[t]);
 }
 

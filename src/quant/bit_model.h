@@ -21,11 +21,11 @@ constexpr std::size_t most_decisions_per_byte = 1u << 14;
 struct Learning {
   int count_limit = BitModelConstants::count_limit;  ///< at most that
   int mixer_rate = BitModelConstants::mixer_rate;
-  std::int32_t start_weight = weight_one * 3 / 10;  ///< of each input
+  std::int32_t start_weight = weight_one * 3 / 10;  ///< of each table
 };
 
 /// A set of contexts and mixing weights. A decision names one counter of each of `inputs` tables,
-/// and a set of weights.
+/// and a set of weights: one of each of them, and one of a 1 for which nothing speaks.
 class BitMixer {
  public:
   BitMixer(std::span<const std::size_t> table_sizes, std::size_t weight_sets,
@@ -62,10 +62,11 @@ class BitMixer {
 
  private:
   static constexpr int inputs = BitModelConstants::inputs;
+  static constexpr int weights_of_set = inputs + 1;
 
   /// What a decision's contexts say of it.
   struct Prediction {
-    std::array<std::int32_t, inputs> logits;
+    std::array<std::int32_t, weights_of_set> logits;
     Probability one;
   };
   Prediction predict(const Contexts& contexts) const;
@@ -79,9 +80,10 @@ class BitMixer {
 // Both stand here since decoding does little else.
 
 inline BitMixer::Prediction BitMixer::predict(const Contexts& contexts) const {
-  const std::int32_t* weights = &weights_[std::size_t{contexts.weights} * inputs];
+  const std::int32_t* weights = &weights_[std::size_t{contexts.weights} * weights_of_set];
   Prediction result;
-  std::int64_t dot = 0;
+  result.logits[inputs] = logit_one;
+  std::int64_t dot = static_cast<std::int64_t>(weights[inputs]) * logit_one;
   for (std::size_t i = 0; i < inputs; ++i) {
     result.logits[i] = stretch(tables_[i][contexts.counter[i]].probability);
     dot += static_cast<std::int64_t>(weights[i]) * result.logits[i];
@@ -93,15 +95,16 @@ inline BitMixer::Prediction BitMixer::predict(const Contexts& contexts) const {
 }
 
 inline void BitMixer::update(const Contexts& contexts, const Prediction& prediction, bool bit) {
-  std::int32_t* weights = &weights_[std::size_t{contexts.weights} * inputs];
+  std::int32_t* weights = &weights_[std::size_t{contexts.weights} * weights_of_set];
   const std::int32_t error =
       ((bit ? 65535 : 0) - static_cast<std::int32_t>(prediction.one)) * learning_.mixer_rate;
-  for (std::size_t i = 0; i < inputs; ++i) {
+  for (std::size_t i = 0; i < weights_of_set; ++i) {
     const auto move = static_cast<std::int32_t>(
         (static_cast<std::int64_t>(prediction.logits[i]) * error + (1 << 19)) >> 20);
     weights[i] = std::clamp(weights[i] + move, -weight_limit, weight_limit);
-    tables_[i][contexts.counter[i]].update(bit, learning_.count_limit);
   }
+  for (std::size_t i = 0; i < inputs; ++i)
+    tables_[i][contexts.counter[i]].update(bit, learning_.count_limit);
 }
 
 }  // namespace reprise

@@ -6,6 +6,7 @@
 
 #include "quant/coded_bits.h"
 #include "quant/magnitude_bins.h"
+#include "refine/channel_contexts.h"
 #include "refine/knot_sizes.h"
 
 namespace reprise {
@@ -13,22 +14,10 @@ namespace {
 
 using Eigen::Index;
 
-/// Sizes of the context tables; all constants here belong to the archive format.
-constexpr std::uint32_t level_slots = 14;
-constexpr std::uint32_t bins = 24;  ///< of an expected magnitude
-constexpr std::uint32_t few_bins = 8;
-constexpr std::uint32_t most_channel = 255;  ///< later channels share contexts
-constexpr int activity_decay = 3;            ///< an eighth a channel
-/// Is it beyond bucket 0, 1, ..; those from here on share their counters.
-constexpr std::uint32_t decisions = 31;
-constexpr std::uint32_t sign_decision = decisions, mantissa_decisions = decisions + 1;
-constexpr std::uint32_t kinds = decisions + 1 + 2 * decisions;
-constexpr std::array<std::uint32_t, BitModelConstants::inputs> context_counts = {
-    bins * level_slots, bins* few_bins, bins* few_bins, bins* few_bins* few_bins,
-    (most_channel + 1) * level_slots};
+constexpr int activity_decay = 3;  ///< an eighth a channel; belongs to the archive format
 
 template <class Io>
-class Walk {
+class Walk : ChannelContexts {
  public:
   Walk(Io io, const ChannelKnotShape& shape, const StepGrid& steps, ChannelKnots& knots)
       : io_(io),
@@ -94,8 +83,8 @@ class Walk {
 
   Contexts expected_size(const Place& place, int offset) const {
     const auto [f, step, apart, slot] = place;
-    const auto in_bins = [&](std::uint64_t sum, std::uint32_t count, int per_octave) {
-      return size_bin(in_finer_steps(sum, offset) >> size_bits, count, per_octave);
+    const auto in_bins = [&](std::uint64_t sum, std::uint32_t of, int per_octave) {
+      return size_bin(in_finer_steps(sum, offset) >> size_bits, of, per_octave);
     };
     const auto around = [&place](const std::uint64_t* sizes) {  // clang 14: not the binding
       return 2 * sizes[place.frame] + sizes[place.frame - place.step] +
@@ -130,7 +119,7 @@ class Walk {
   bool decide(std::uint32_t kind, const Contexts& expected, bool bit) {
     BitMixer::Contexts contexts;
     for (std::size_t t = 0; t < BitModelConstants::inputs; ++t) {
-      contexts.counter[t] = kind * context_counts[t] + expected[t];
+      contexts.counter[t] = kind * count[t] + expected[t];
     }
     contexts.weights = kind;
     return io_(contexts, bit);
@@ -174,15 +163,9 @@ class Walk {
   Contexts size_contexts_{};
 };
 
-std::array<std::size_t, BitModelConstants::inputs> table_sizes() {
-  std::array<std::size_t, BitModelConstants::inputs> sizes;
-  for (std::size_t t = 0; t < sizes.size(); ++t) sizes[t] = std::size_t{kinds} * context_counts[t];
-  return sizes;
-}
-
 }  // namespace
 
-ChannelCoder::ChannelCoder() : mixer_(table_sizes(), kinds) {}
+ChannelCoder::ChannelCoder() : mixer_(fresh_channel_mixer()) {}
 
 void ChannelCoder::encode(RangeEncoder& encoder, const ChannelKnotShape& shape,
                           const StepGrid& steps, ChannelKnots knots) {

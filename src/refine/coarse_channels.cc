@@ -19,11 +19,21 @@ constexpr int steps_per_octave = 32, step_one = 320, most_step = 1023;
 constexpr double step_per_millimetre = 3, reach_per_millimetre = 3;
 /// Seconds between the coarsest knots.
 constexpr double spans_s[] = {1.06, 2.12};
+/// A take in fewer bytes than this for each channel that moves is not looked at: postures alone
+/// would take more.
+constexpr std::size_t least_channel_bytes = 4;
 /// Bytes times mean error changes by less than this while a step is searched for.
 constexpr double hope = 1.3;
 /// A step is kept only if the mean is this much below what was promised (part of it), for decimals
 /// of a file and other machines' sines.
 constexpr double margin = 1e-4;
+
+std::size_t moving_channels(const Take& take) {
+  std::size_t moving = 0;
+  for (const auto& channel : take.channels.colwise())
+    moving += (channel.array() != channel[0]).any() ? 1 : 0;
+  return moving;
+}
 
 double step_mm(int index) {
   return std::exp2(static_cast<double>(index - step_one) / steps_per_octave);
@@ -77,10 +87,13 @@ class CoarseSearch {
                     {}};
     quantiser_.set_steps(step_mm(step), tried.coded.steps);
     tried.decoded = quantiser_.quantise(tried.coded);
-    tried.coded.contacts = contacts_;
-    tried.coded.hold_feet(*take_.skeleton, tried.decoded);
-    const auto distances =
-        joint_distances(positions_, joint_positions(*take_.skeleton, tried.decoded));
+    PositionMatrix reached = quantiser_.positions();
+    if (!contacts_.intervals.empty()) {
+      tried.coded.contacts = contacts_;
+      tried.coded.hold_feet(*take_.skeleton, tried.decoded);
+      reached = joint_positions(*take_.skeleton, tried.decoded);
+    }
+    const auto distances = joint_distances(positions_, reached);
     for (const float distance : distances) {
       tried.mean_mm += distance;
       tried.max_mm = std::max<double>(tried.max_mm, distance);
@@ -131,7 +144,8 @@ class CoarseSearch {
 }  // namespace
 
 std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions& options) {
-  if (take.frames() == 0) return std::nullopt;
+  if (take.frames() == 0 || options.most_bytes < least_channel_bytes * moving_channels(take))
+    return std::nullopt;
   return CoarseSearch(take, options).run();
 }
 

@@ -47,6 +47,17 @@ class Packer {
     writer_.numbers(values);
   }
 
+  /// The same, with a column for each place in these lists, of the takes that have so many.
+  void columns_by_place(const std::function<std::size_t(const StoredTake&)>& count,
+                        const std::function<std::uint64_t(const StoredTake&, std::size_t)>& value) {
+    std::size_t most = 0;
+    for (const StoredTake& take : takes_) most = std::max(most, count(take));
+    for (std::size_t place = 0; place < most; ++place) {
+      columns([&](const StoredTake& t) -> std::size_t { return place < count(t) ? 1 : 0; },
+              [&](const StoredTake& t, std::size_t) { return value(t, place); });
+    }
+  }
+
   void pack_numbers() {
     std::size_t next = 0;
     column([&](const StoredTake& take) {
@@ -82,16 +93,11 @@ class Packer {
     error(&PositionErrors::max);
     const auto sketch_size = [](const StoredTake& t) { return t.record.error_quantiles.size(); };
     column(sketch_size);
-    std::size_t most = 0;
-    for (const StoredTake& take : takes_) most = std::max(most, sketch_size(take));
-    for (std::size_t q = 0; q < most; ++q) {
-      // Quantiles rise.
-      columns([&](const StoredTake& t) -> std::size_t { return q < sketch_size(t) ? 1 : 0; },
-              [&](const StoredTake& t, std::size_t) {
-                const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
-                return static_cast<std::uint64_t>((t.record.error_quantiles[q] - before) & 255);
-              });
-    }
+    // Quantiles rise.
+    columns_by_place(sketch_size, [](const StoredTake& t, std::size_t q) {
+      const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
+      return static_cast<std::uint64_t>((t.record.error_quantiles[q] - before) & 255);
+    });
   }
 
   void pack_layers() {
@@ -100,14 +106,14 @@ class Packer {
     const auto layer = [](const StoredTake& t, std::size_t i) -> const LayerRecord& {
       return t.record.layers[i];
     };
-    columns(count, [&](const StoredTake& t, std::size_t i) {
+    columns_by_place(count, [&](const StoredTake& t, std::size_t i) {
       return static_cast<std::uint64_t>(layer(t, i).kind);
     });
-    columns(count, [&](const StoredTake& t, std::size_t i) {
+    columns_by_place(count, [&](const StoredTake& t, std::size_t i) {
       return static_cast<std::uint64_t>(micrometres(layer(t, i).limit_mm));
     });
-    columns(count, size_of_layer);
-    columns(count, [](const StoredTake& t, std::size_t i) -> std::uint64_t {
+    columns_by_place(count, size_of_layer);
+    columns_by_place(count, [](const StoredTake& t, std::size_t i) -> std::uint64_t {
       return t.places[i].compressed ? 1 : 0;
     });
     for (const StoredTake& take : takes_) {
@@ -118,11 +124,11 @@ class Packer {
   void pack_spent() {
     const auto count = [](const StoredTake& t) { return t.record.spent.size(); };
     column(count);
-    columns(count, [](const StoredTake& t, std::size_t i) {
+    columns_by_place(count, [](const StoredTake& t, std::size_t i) {
       return part_number(t.record.spent[i].first);
     });
     // Often a part is a layer.
-    columns(count, [](const StoredTake& t, std::size_t i) {
+    columns_by_place(count, [](const StoredTake& t, std::size_t i) {
       return folded(difference(t.record.spent[i].second, size_of_layer(t, i)));
     });
   }

@@ -1,6 +1,7 @@
 // A block of takes out of its bytes; nothing in them is believed.
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "reprise/error.h"
 #include "store/block_columns.h"
@@ -71,6 +72,17 @@ class Unpacker {
     }
   }
 
+  /// The same, with a column for each place in these lists, of the takes that have so many.
+  template <class Count, class Put>
+  void columns_by_place(const Count& count, const Put& put) {
+    std::size_t most = 0;
+    for (const StoredTake& take : takes()) most = std::max(most, count(take));
+    for (std::size_t place = 0; place < most; ++place) {
+      columns([&](const StoredTake& t) -> std::size_t { return place < count(t) ? 1 : 0; },
+              [&](StoredTake& t, std::size_t, std::uint64_t v) { put(t, place, v); });
+    }
+  }
+
   /// A number that must be below a bound, to be used as one of another type.
   template <class Number>
   static Number checked(std::uint64_t value, std::uint64_t most) {
@@ -122,22 +134,13 @@ class Unpacker {
     error(&PositionErrors::rms);
     error(&PositionErrors::p99);
     error(&PositionErrors::max);
-    std::size_t most = 0;
-    counts(TakeBlockLimits::quantiles, [&](StoredTake& take, std::size_t count) {
-      take.record.error_quantiles.resize(count);
-      most = std::max(most, count);
+    counts(TakeBlockLimits::quantiles,
+           [](StoredTake& take, std::size_t count) { take.record.error_quantiles.resize(count); });
+    const auto count = [](const StoredTake& t) { return t.record.error_quantiles.size(); };
+    columns_by_place(count, [](StoredTake& t, std::size_t q, std::uint64_t v) {
+      const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
+      t.record.error_quantiles[q] = static_cast<std::uint8_t>(before + static_cast<int>(v & 255));
     });
-    for (std::size_t q = 0; q < most; ++q) {
-      columns(
-          [&](const StoredTake& t) -> std::size_t {
-            return q < t.record.error_quantiles.size() ? 1 : 0;
-          },
-          [&](StoredTake& t, std::size_t, std::uint64_t v) {
-            const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
-            t.record.error_quantiles[q] =
-                static_cast<std::uint8_t>(before + static_cast<int>(v & 255));
-          });
-    }
   }
 
   void unpack_layers() {
@@ -146,25 +149,24 @@ class Unpacker {
       take.record.layers.resize(count);
     });
     const auto count = [](const StoredTake& t) { return t.places.size(); };
-    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+    columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       const auto kind = checked<LayerKind>(v, static_cast<std::uint64_t>(LayerKind::channels));
       if (kind < LayerKind::coefficients) throw_damaged();
       t.record.layers[i].kind = kind;
     });
-    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+    columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.record.layers[i].limit_mm = millimetres(v);
     });
-    std::size_t offset = 0;
-    columns(count, [&](StoredTake& t, std::size_t i, std::uint64_t v) {
-      t.places[i].offset = offset;
+    columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.places[i].size = checked<std::size_t>(v, std::uint64_t{1} << 32);
-      offset += t.places[i].size;
     });
-    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+    columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.places[i].compressed = checked<bool>(v, 1);
     });
+    std::size_t offset = 0;
     for (StoredTake& take : takes()) {
       for (LayerPlace& place : take.places) {
+        place.offset = std::exchange(offset, offset + place.size);
         std::ranges::copy(reader_.raw(place.digest.size()), place.digest.begin());
       }
       take.record.info.payload_bytes = size_of_layers(take);
@@ -175,10 +177,10 @@ class Unpacker {
     counts(TakeBlockLimits::parts,
            [](StoredTake& take, std::size_t count) { take.record.spent.resize(count); });
     const auto count = [](const StoredTake& t) { return t.record.spent.size(); };
-    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+    columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.record.spent[i].first = part_name(v);
     });
-    columns(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+    columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.record.spent[i].second = size_of_layer(t, i) + static_cast<std::uint64_t>(unfolded(v));
     });
   }
