@@ -13,7 +13,7 @@ constexpr Learning channel_learning = {40, 6, weight_one / 4};
 constexpr int size_count = 2, other_count = 4;
 
 /// Logits, in quarters, of a knot being beyond bucket 0 .. 7, by how large the knots around it are:
-/// 0, below 1/16, 1/8, .. 32, and from there on. Counted over takes of three sets at bounds of 1
+/// 0, below 1/16, 1/8, .. 64, and from there on. Counted over takes of three sets at bounds of 1
 /// and 10 mm, each set with the same weight.
 constexpr int known_buckets = 8, known_sizes = 13, least_octave = -5;
 constexpr std::array<std::array<std::int8_t, known_sizes>, known_buckets> beyond = {{

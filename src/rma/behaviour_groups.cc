@@ -15,8 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Similarities of segments: Gaussian in their distance, as wide as the median distance of each to
-/// its nearest quarter.
+/// its nearest quarter. Where most of them have a twin that is 0, but for rounding.
 MatrixXd similarities(const MatrixXd& distances) {
+  constexpr double least_width = 1e-6;
   std::vector<double> near;
   for (Eigen::Index i = 0; i < distances.rows(); ++i) {
     std::vector<double> row(static_cast<std::size_t>(distances.cols()));
@@ -27,7 +28,7 @@ MatrixXd similarities(const MatrixXd& distances) {
   }
   std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2),
                    near.end());
-  const double width = std::max(near[near.size() / 2], 1e-9);
+  const double width = std::max(near[near.size() / 2], least_width);
   return (-(distances / width).array().square()).exp();
 }
 
@@ -153,9 +154,10 @@ std::vector<int> group_segments(std::span<const SegmentShape> segments,
   const std::size_t sampled = std::min(segments.size(), constants.most_sampled);
   std::vector<std::size_t> sample(sampled);
   for (std::size_t i = 0; i < sampled; ++i) sample[i] = i * segments.size() / sampled;
-  MatrixXd distances(sampled, sampled);
+  // Of a segment from itself exactly 0, which rounding would not give.
+  MatrixXd distances = MatrixXd::Zero(sampled, sampled);
   for (std::size_t i = 0; i < sampled; ++i) {
-    for (std::size_t k = 0; k <= i; ++k) {
+    for (std::size_t k = 0; k < i; ++k) {
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
       distances(a, b) = distances(b, a) =
           segment_distance(segments[sample[i]], segments[sample[k]], constants);

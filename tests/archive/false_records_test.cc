@@ -1,6 +1,7 @@
 // Records that are whole, as their digests say, and do not fit each other: somebody made them so.
 #include "archive/archive_fixture.h"
 #include "exact/text_codec.h"
+#include "refine/coarse_channels.h"
 #include "refine/coded_channels.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"
@@ -95,6 +96,27 @@ TEST_F(FalseRecords, NumbersThatNoMotionHasAreDamage) {
   channels.stored = Eigen::MatrixXd::Constant(take.frames(), take.skeleton->channel_count, 1e300);
   short_.layers.push_back({LayerKind::refinement, 10.0, channels.encode()});
   expect_damage(short_, "a joint at 1e300");
+}
+
+TEST_F(FalseRecords, ChannelsThatBreakTheirMeanAreFound) {
+  const Take take = read_motion_file(folder_ / "takes/short.bvh");
+  const Refinement coarse = coarse_channels(take, {20, true, 1u << 20}).value();
+  ClipRecord clip;
+  clip.frames = take.frames();
+  for (const auto& [name, limit] : {std::pair{"kept", 20.0}, std::pair{"broken", 1e-3}}) {
+    write(std::string("takes/") + name + ".bvh", chain_bvh(1, 40));
+    short_.info.name = name;
+    short_.layers = {{LayerKind::channels, limit, coarse.bytes}};
+    store_->add_take(short_, std::span(&clip, 1));
+  }
+  store_->commit();
+  store_.reset();
+  const Archive archive(folder_ / "archive");
+  EXPECT_TRUE(archive.extract(archive.find_take("kept")).channels == coarse.decoded);
+  std::vector<std::string> damaged;
+  for (const Damage& damage : archive.verify(folder_ / "takes").damaged)
+    damaged.push_back(damage.id);
+  EXPECT_EQ(damaged, std::vector<std::string>{"broken"});
 }
 
 TEST_F(FalseRecords, FramesThatNoTextHasAreDamage) {

@@ -128,14 +128,15 @@ TEST_F(ClipsTest, ATakeThatComesLaterRepeatsWhatIsStored) {
   output({"ingest", "lib.rpz", "takes", "--fidelity", "preview", "--prefix", "again", "--quiet"});
   const json after = clips();
   expect_sound(after);
-  std::map<std::string, std::set<std::string>> stored, groups;
+  std::map<std::string, std::set<std::string>> stored;
+  std::set<std::string> groups;
   std::map<std::string, std::string> take_of;
   for (const json& clip : before) {
     stored[clip["take"]].insert(clip["id"].get<std::string>() + clip["first_frame"].dump());
     take_of[clip["id"]] = clip["take"];
-    groups["before"].insert(clip["group"].dump());
+    groups.insert(clip["group"].dump());
   }
-  double repeated = 0, seconds = 0;
+  double repeated = 0, seconds = 0, elsewhere = 0;
   for (const json& clip : after) {
     const std::string take = clip["take"];
     if (!take.starts_with("again/")) {
@@ -143,14 +144,15 @@ TEST_F(ClipsTest, ATakeThatComesLaterRepeatsWhatIsStored) {
           stored[take].contains(clip["id"].get<std::string>() + clip["first_frame"].dump()));
       continue;
     }
-    groups["after"].insert(clip["group"].dump());
     const double length = clip["end"].get<double>() - clip["start"].get<double>();
     seconds += length;
+    if (!groups.contains(clip["group"].dump())) elsewhere += length;
     if (clip.contains("primary") && take_of.contains(clip["primary"])) repeated += length;
   }
   EXPECT_GT(repeated, 0.5 * seconds);
-  for (const std::string& group : groups["after"])
-    EXPECT_TRUE(groups["before"].contains(group)) << group;
+  // What is stored is not quite what comes: a segment at the edge of its group may get one of its
+  // own.
+  EXPECT_LT(elsewhere, 0.1 * seconds);
 }
 
 }  // namespace
