@@ -187,7 +187,8 @@ TEST_F(JsonTest, IdsOfNamesThatAreNotUtf8AreGoodForOtherCommands) {
     write_file(folder() / "odd" / (std::string(name) + ".bvh"), text);
   }
   output({"ingest", "odd.rpz", "odd", "--no-repeats"});
-  for (const json& take : document({"list", "odd.rpz"}).at("takes")) {
+  const json listed = document({"list", "odd.rpz"});
+  for (const json& take : listed.at("takes")) {
     const auto id = take.at("id").get<std::string>();
     EXPECT_EQ(document({"info", "odd.rpz", id}).at("take").at("id"), id);
     EXPECT_EQ(document({"info", "odd.rpz", id.substr(2)}).at("take").at("id"), id);
