@@ -97,6 +97,7 @@ class SkeletonPlanner {
     windows.neighbours = constants_.neighbours;
     windows.hop_s = constants_.hop_s;
     windows.excess = 1;
+    windows.most_looks = constants_.most_looks;
     const auto pairs = find_near_pairs(library_, repeats_, std::nullopt, jobs_, windows);
     const std::vector<ChosenClip> standing = standing_clips();
     const long least = std::lround(constants_.least_clip_s * constants_.rate);

@@ -63,15 +63,6 @@ Eigen::MatrixXf leading_axes(const PointMatrix& points, int count) {
   return solved.vectors.rightCols(std::min<Eigen::Index>(count, products.cols())).cast<float>();
 }
 
-/// The windows that one looks at, nearest first: at most as many as are asked for.
-std::vector<Neighbour> near_windows(const WindowIndex& index, std::span<const float> point,
-                                    std::size_t neighbours, float most_mm,
-                                    const NearWindowConstants& constants) {
-  return constants.excess > 1 ? index.nearly_nearest(point, neighbours, most_mm, constants.excess,
-                                                     constants.most_looks)
-                              : index.nearest(point, neighbours);
-}
-
 struct RankedPair {
   NearPair pair;
   float squared_distance;
@@ -127,8 +118,8 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
       for (std::size_t w = b * block; w < std::min(count, (b + 1) * block); ++w) {
         const std::span<const float> point(points.row(static_cast<long>(w)).data(),
                                            static_cast<std::size_t>(points.cols()));
-        for (const Neighbour& near :
-             near_windows(index, point, neighbours, greatest_mm, constants)) {
+        for (const Neighbour& near : index.nearly_nearest(point, neighbours, greatest_mm,
+                                                          constants.excess, constants.most_looks)) {
           const Window& window = asked.windows[w];
           const Window& other = own.windows[near.point];
           const float most = library.of_one_subject(window.take, other.take)

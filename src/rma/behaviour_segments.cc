@@ -2,20 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "model/symmetric_eigen.h"
 
 namespace reprise {
 namespace {
 
+/// Mean and covariance of samples that come in pieces, so that a model may grow at the cost of what
+/// it grows by.
+class GrowingMoments {
+ public:
+  /// Of no sample yet. Products are summed about `origin`, near which the samples should be.
+  explicit GrowingMoments(const Eigen::RowVectorXd& origin)
+      : origin_(origin),
+        sum_(Eigen::RowVectorXd::Zero(origin.size())),
+        products_(Eigen::MatrixXd::Zero(origin.size(), origin.size())) {}
+
+  void add(const Eigen::Ref<const Eigen::MatrixXd>& samples) {
+    const Eigen::MatrixXd about = samples.rowwise() - origin_;
+    sum_ += about.colwise().sum();
+    products_.noalias() += about.transpose() * about;
+    count_ += static_cast<double>(samples.rows());
+  }
+
+  Eigen::RowVectorXd mean() const { return origin_ + sum_ / count_; }
+  Eigen::MatrixXd covariance() const {
+    return products_ / count_ - sum_.transpose() * sum_ / (count_ * count_);
+  }
+
+ private:
+  Eigen::RowVectorXd origin_, sum_;
+  Eigen::MatrixXd products_;
+  double count_ = 0;
+};
+
 /// A Gaussian whose lesser axes all have the same variance.
 class ProbabilisticModel {
  public:
-  ProbabilisticModel(const Eigen::Ref<const Eigen::MatrixXd>& samples, double share) {
-    mean_ = samples.colwise().mean();
-    const Eigen::MatrixXd centred = samples.rowwise() - mean_;
-    const SymmetricEigen solved =
-        symmetric_eigen(centred.transpose() * centred / static_cast<double>(samples.rows()));
+  ProbabilisticModel(const GrowingMoments& moments, double share) : mean_(moments.mean()) {
+    const SymmetricEigen solved = symmetric_eigen(moments.covariance());
     axes_ = solved.vectors.rowwise().reverse();
     variance_ = solved.values.reverse().cwiseMax(least_variance);
     const double all = variance_.sum();
@@ -51,8 +77,15 @@ std::vector<long> forward_cuts(const Eigen::MatrixXd& samples, double rate,
   double valley = 0, peak = 0;
   long peak_at = 0;
   bool fresh = true;
-  for (; start + size + test <= samples.rows(); size += step) {
-    const ProbabilisticModel model(samples.middleRows(start, size), constants.variance_share);
+  std::optional<GrowingMoments> moments;
+  for (long known = 0; start + size + test <= samples.rows(); size += step) {
+    if (fresh) {
+      moments.emplace(samples.row(start));
+      known = 0;
+    }
+    moments->add(samples.middleRows(start + known, size - known));
+    known = size;
+    const ProbabilisticModel model(*moments, constants.variance_share);
     const double height = model.mean_squared_distance(samples.middleRows(start + size, test));
     if (fresh || height < valley) {
       valley = peak = height;

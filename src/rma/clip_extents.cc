@@ -15,15 +15,41 @@ namespace {
 
 /// Extents that share this much of what they cover are one.
 constexpr double same_extent = 0.8;
+/// Paths of a plot are traced until they have this many pixels for each of its columns. Real takes
+/// have at most 26; noise about one posture, all of which is similar, has thousands, and more the
+/// longer it is.
+constexpr std::size_t most_pixels_a_column = 200;
 /// A pixel this near (samples) to a path lies on it.
 constexpr long near_path = 2;
 
-bool lies_on(const SimilarPath& path, const NearPair& pair) {
-  const auto at = std::lower_bound(path.pixels.begin(), path.pixels.end(), pair.sample,
-                                   [](const PlotPixel& p, long x) { return p.x < x; });
-  return at != path.pixels.end() && at->x - pair.sample <= near_path &&
-         std::labs(at->y - pair.other_sample) <= near_path;
-}
+/// Where the paths run that were traced in a plot: however many they are, a place is looked up in
+/// its own column alone.
+class TracedPlaces {
+ public:
+  explicit TracedPlaces(long columns) : places_(static_cast<std::size_t>(columns)) {}
+
+  void add(const SimilarPath& path) {
+    long x = std::max(0L, path.pixels.front().x - near_path);
+    for (const PlotPixel& pixel : path.pixels) {
+      for (x = std::max(x, pixel.x - near_path); x <= pixel.x; ++x) {
+        places_[static_cast<std::size_t>(x)].push_back(pixel.y);
+      }
+    }
+    pixels_ += path.pixels.size();
+  }
+
+  bool full() const { return pixels_ >= most_pixels_a_column * places_.size(); }
+
+  bool hold(const NearPair& pair) const {
+    return std::ranges::any_of(places_[static_cast<std::size_t>(pair.sample)], [&](long y) {
+      return std::labs(y - pair.other_sample) <= near_path;
+    });
+  }
+
+ private:
+  std::vector<std::vector<long>> places_;  ///< of each column: other samples
+  std::size_t pixels_ = 0;
+};
 
 /// Extents of one take, each a running mean of those that are nearly the same.
 class ExtentSet {
@@ -74,28 +100,60 @@ void part_sides(long& begin, long& end, long& other_begin, long& other_end) {
   other_end = std::min(other_end, other_begin + lag);
 }
 
-/// Whether a motion may go on from one pair to the other: both forwards, none more than
-/// RepeatConstants::steepest times as fast.
-bool goes_on(const NearPair& from, const NearPair& to, long most_samples) {
-  const long x = to.sample - from.sample, y = to.other_sample - from.other_sample;
-  return x > 0 && y > 0 && x <= RepeatConstants::steepest * y &&
-         y <= RepeatConstants::steepest * x && std::min(x, y) <= most_samples;
-}
+/// The pairs of a plot as places of it, sorted.
+class PairPlaces {
+ public:
+  PairPlaces(std::span<const NearPair> near_pairs, const std::vector<std::size_t>& pairs) {
+    for (const std::size_t i : pairs) {
+      places_.emplace_back(near_pairs[i].sample, near_pairs[i].other_sample);
+    }
+    std::ranges::sort(places_);
+  }
+
+  /// Whether a motion may go on from a pair to one of these, or from one of these to it: both
+  /// forwards, the slower by at most so many samples and none more than RepeatConstants::steepest
+  /// times as fast.
+  bool has_next_to(const NearPair& pair, long most_samples) const {
+    constexpr long steepest = RepeatConstants::steepest;
+    for (long x = 1; x <= steepest * most_samples; ++x) {
+      const long least = (x + steepest - 1) / steepest;
+      const long most = x <= most_samples ? steepest * x : most_samples;
+      const bool goes_on =
+          any_in_column(pair.sample + x, pair.other_sample + least, pair.other_sample + most) ||
+          any_in_column(pair.sample - x, pair.other_sample - most, pair.other_sample - least);
+      if (goes_on) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool any_in_column(long x, long first, long last) const {
+    const auto at = std::ranges::lower_bound(places_, std::pair(x, first));
+    return at != places_.end() && *at <= std::pair(x, last);
+  }
+
+  std::vector<std::pair<long, long>> places_;
+};
 
 /// Those pairs of a plot that another goes on from, or to; all where `most_samples` is 0.
 std::vector<std::size_t> without_lone(std::span<const NearPair> near_pairs,
                                       const std::vector<std::size_t>& pairs, long most_samples) {
   if (most_samples == 0) return pairs;
+  const PairPlaces places(near_pairs, pairs);
   std::vector<std::size_t> kept;
   for (const std::size_t i : pairs) {
-    const NearPair& pair = near_pairs[i];
-    const bool lone = std::ranges::none_of(pairs, [&](std::size_t other) {
-      return goes_on(pair, near_pairs[other], most_samples) ||
-             goes_on(near_pairs[other], pair, most_samples);
-    });
-    if (!lone) kept.push_back(i);
+    if (places.has_next_to(near_pairs[i], most_samples)) kept.push_back(i);
   }
   return kept;
+}
+
+/// Adds one side of a path, in equal pieces where it is longer than an extent may be.
+void add_side(ExtentSet& extents, long begin, long end, double support, long most) {
+  const long length = end - begin, pieces = (length + most - 1) / most;
+  for (long piece = 0; piece < pieces; ++piece) {
+    extents.add(begin + length * piece / pieces, begin + length * (piece + 1) / pieces,
+                support / static_cast<double>(pieces));
+  }
 }
 
 /// Paths in the plot of two takes, each with the pair that it was traced from. `pairs` are indices.
@@ -107,14 +165,16 @@ std::vector<std::pair<std::size_t, TracedPath>> trace_plot(const PostureLibrary&
   const long least_path = std::lround(constants.least_path_s * constants.rate);
   const long next_near = std::lround(constants.next_near_s * constants.rate);
   std::vector<std::pair<std::size_t, TracedPath>> traced;
+  TracedPlaces places(library.postures[near_pairs[pairs.front()].take].rows());
   for (const std::size_t i : without_lone(near_pairs, pairs, next_near)) {
     const NearPair& pair = near_pairs[i];
-    const auto on_it = [&](const auto& known) { return lies_on(known.second.path, pair); };
-    if (std::ranges::any_of(traced, on_it)) continue;
+    if (places.full()) break;
+    if (places.hold(pair)) continue;
     SimilarPath path = tracer.trace(library.side(pair.take, pair.other_take),
                                     library.side(pair.other_take, pair.take),
                                     {pair.sample, pair.other_sample}, pair.take == pair.other_take);
     if (path.pixels.empty()) continue;
+    places.add(path);
     traced.push_back({i, {pair.take, pair.other_take, std::move(path)}});
   }
   std::erase_if(traced,
@@ -157,6 +217,7 @@ std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
                                           std::span<const NearPair> near_pairs,
                                           const RepeatConstants& constants, unsigned jobs) {
   const long least_clip = std::lround(constants.least_clip_s * constants.rate);
+  const long most_clip = std::lround(constants.most_clip_s * constants.rate);
   std::vector<ExtentSet> sets(library.takes());
   for (const TracedPath& traced : trace_paths(library, near_pairs, constants, jobs)) {
     const std::vector<PlotPixel>& pixels = traced.path.pixels;
@@ -164,8 +225,10 @@ std::vector<ClipExtent> find_clip_extents(const PostureLibrary& library,
     long other_begin = pixels.front().y, other_end = pixels.back().y + 1;
     if (traced.take == traced.other_take) part_sides(begin, end, other_begin, other_end);
     if (end - begin < least_clip || other_end - other_begin < least_clip) continue;
-    sets[traced.take].add(begin, end, static_cast<double>(other_end - other_begin));
-    sets[traced.other_take].add(other_begin, other_end, static_cast<double>(end - begin));
+    const auto length = static_cast<double>(end - begin);
+    const auto other_length = static_cast<double>(other_end - other_begin);
+    add_side(sets[traced.take], begin, end, other_length, most_clip);
+    add_side(sets[traced.other_take], other_begin, other_end, length, most_clip);
   }
   std::vector<ClipExtent> extents;
   for (std::size_t take = 0; take < sets.size(); ++take) sets[take].list(take, extents);

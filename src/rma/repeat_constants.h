@@ -50,6 +50,9 @@ struct RepeatConstants {
   double least_near_per_s = 3.5;
   /// The shortest clip that is reported (s).
   double least_clip_s = 0.5;
+  /// The longest (s); what recurs for longer is cut into equal parts. To hold a clip against a take
+  /// costs the product of their lengths.
+  double most_clip_s = 60;
   /// No group is looked for around a clip of which this part is in this many groups already: that
   /// every moment is told dozens of times helps nobody, and takes longer the larger a library is.
   /// A part above 1: groups overlap as they like. Measured.

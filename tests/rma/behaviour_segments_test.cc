@@ -55,6 +55,15 @@ TEST(BehaviourSegments, ATakeThatIsTooShortIsOne) {
   EXPECT_TRUE(behaviour_cuts(PostureMatrix(0, 12), rate).empty());
 }
 
+TEST(BehaviourSegments, DoNotDependOnWhereThePosturesLie) {
+  const PostureMatrix take = joined({swinging(1, 30), swinging(2, 8), swinging(3, 30)});
+  PostureMatrix far = take;
+  far.array() += 4096;
+  const std::vector<long> cuts = behaviour_cuts(take, rate);
+  EXPECT_FALSE(cuts.empty());
+  EXPECT_EQ(behaviour_cuts(far, rate), cuts);
+}
+
 TEST(BehaviourSegments, AStillTakeIsOne) {
   EXPECT_TRUE(behaviour_cuts(PostureMatrix::Constant(200, 12, 5), rate).empty());
 }

@@ -35,6 +35,15 @@ TEST(ClipAlignmentOf, OthersFindsNothing) {
   EXPECT_TRUE(align_clip(library.view(0, 0, 30), library.view(1, 0, 90), 30).empty());
 }
 
+TEST(ClipAlignmentOf, ALongClipIsHeldAgainstAllOfIt) {
+  const PostureLibrary library(
+      {made_up_take(1, 0, 40), joined({made_up_take(2, 0, 7), made_up_take(1, 0, 40)})}, {});
+  const auto found = align_clip(library.view(0, 0, 600), library.view(1, 0, 705), 60);
+  ASSERT_EQ(found.size(), 1u);
+  for (long s = 0; s < 600; ++s) ASSERT_EQ(found[0].map[static_cast<std::size_t>(s)], 105 + s);
+  EXPECT_EQ(found[0].mean_mm, 0);
+}
+
 TEST(ClipAlignmentOf, TwoOccurrencesDoNotOverlap) {
   const PostureLibrary library(
       {made_up_take(1, 0, 2), joined({made_up_take(1, 0, 2), made_up_take(1, 0, 2)})}, {});

@@ -238,37 +238,6 @@ TEST(RepeatsOfAClip, MayBeAsFarAsMembersWhereAllIsAlike) {
   EXPECT_FALSE(found(0.95F * just));
 }
 
-TEST(TracedPaths, GoThroughPairsThatOthersGoOnFrom) {
-  const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 4)}, constants);
-  const std::vector<NearPair> alone{{0, 20, 1, 20}}, back{{0, 20, 1, 20}, {0, 23, 1, 17}},
-      late{{0, 20, 1, 20}, {0, 40, 1, 40}}, on{{0, 20, 1, 20}, {0, 23, 1, 24}};
-  EXPECT_TRUE(trace_paths(library, alone, constants).empty());
-  EXPECT_TRUE(trace_paths(library, back, constants).empty());
-  EXPECT_TRUE(trace_paths(library, late, constants).empty());
-  EXPECT_FALSE(trace_paths(library, on, constants).empty());
-  RepeatConstants all = constants;
-  all.next_near_s = 0;
-  EXPECT_EQ(trace_paths(library, alone, all).size(), 1u);
-}
-
-TEST(TracedPaths, AreNotTracedAgainFromPairsOnThem) {
-  const PostureLibrary library({made_up_take(1, 0, 4), made_up_take(1, 0, 4)}, constants);
-  const std::vector<NearPair> pairs{{0, 20, 1, 20}, {0, 23, 1, 24}, {0, 26, 1, 25}};
-  EXPECT_EQ(trace_paths(library, pairs, constants).size(), 1u);
-}
-
-TEST(ClipExtents, OfAMotionThatGoesOnAreOnePeriod) {
-  const PostureMatrix period = made_up_take(1, 0, 2);
-  const PostureLibrary library({joined({period, period, period})}, constants);
-  const std::vector<NearPair> pairs{{0, 5, 0, 35}, {0, 8, 0, 38}};
-  const std::vector<ClipExtent> extents = find_clip_extents(library, pairs, constants);
-  ASSERT_EQ(extents.size(), 2u);
-  EXPECT_EQ(extents[0].begin, 0);
-  EXPECT_EQ(extents[0].end, 30);
-  EXPECT_EQ(extents[1].begin, 30);
-  EXPECT_EQ(extents[1].end, 60);
-}
-
 TEST(RepeatGroups, OfNothing) {
   EXPECT_TRUE(
       find_repeat_groups(PostureLibrary({}, constants), {}, std::nullopt, constants).empty());
