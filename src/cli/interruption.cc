@@ -10,7 +10,8 @@
 namespace reprise::cli {
 namespace {
 
-constexpr int signals[] = {SIGINT, SIGTERM};
+/// SIGALRM comes when the patience of a guard ends.
+constexpr int signals[] = {SIGINT, SIGTERM, SIGALRM};
 
 // A signal handler can reach nothing but globals.
 volatile sig_atomic_t guarded = 0;
@@ -30,6 +31,7 @@ void write_all(int descriptor, std::string_view text) {
 extern "C" void heed_signal(int) {
   if (guarded != 0 && signal_seen == 0) {
     signal_seen = 1;
+    alarm(InterruptionGuard::patience_s);
     return;
   }
   write_all(STDERR_FILENO, last_message);
@@ -45,7 +47,7 @@ void end_when_interrupted(const std::string& message, const std::string& documen
   for (const int number : signals) {
     struct sigaction action = {};
     sigaction(number, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;
+    if (action.sa_handler == SIG_IGN && number != SIGALRM) continue;
     action.sa_handler = heed_signal;
     action.sa_flags = SA_RESTART;
     sigfillset(&action.sa_mask);
@@ -60,7 +62,10 @@ InterruptionGuard::InterruptionGuard() {
   guarded = 1;
 }
 
-InterruptionGuard::~InterruptionGuard() { guarded = 0; }
+InterruptionGuard::~InterruptionGuard() {
+  alarm(0);
+  guarded = 0;
+}
 
 bool InterruptionGuard::requested() { return signal_seen != 0; }
 

@@ -12,9 +12,12 @@ void end_when_interrupted(const std::string& message, const std::string& documen
 void withhold_interruption_document();
 
 /// While it lives, the first SIGINT or SIGTERM sets a flag instead of ending the process; the
-/// second ends it at once. One at a time.
+/// second ends it at once, and so does the end of patience: a single take may take minutes, and an
+/// archive is valid whenever the process dies. One at a time.
 class InterruptionGuard {
  public:
+  static constexpr unsigned patience_s = 10;
+
   InterruptionGuard();
   ~InterruptionGuard();
   InterruptionGuard(const InterruptionGuard&) = delete;

@@ -117,6 +117,17 @@ TEST_F(WaitingCommandTest, EndsWith130WhereItHasNothingToFinish) {
   }
 }
 
+TEST_F(WaitingCommandTest, EndsWhereWhatItHasToFinishDoesNotEnd) {
+  RunningCommand running(
+      folder(), {REPRISE_COMMAND, "ingest", "new.rpz", "takes", "--metadata", "example.bvh"});
+  const int pipe = open((folder() / "example.bvh").c_str(), O_WRONLY);
+  running.signal(SIGTERM);
+  const Outcome outcome = running.wait();  // nothing ever comes through the pipe
+  close(pipe);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(outcome.err, "reprise: interrupted\n");
+}
+
 TEST_F(WaitingCommandTest, GoesOnWhereTheSignalIsIgnored) {
   const Outcome outcome = interrupted(
       {"sh", "-c", "trap '' INT; exec \"$0\" search lib.rpz --like example.bvh", REPRISE_COMMAND},
