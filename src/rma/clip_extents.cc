@@ -2,54 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "rma/parallel_for.h"
+#include "rma/plot_places.h"
 
 namespace reprise {
 namespace {
 
 /// Extents that share this much of what they cover are one.
 constexpr double same_extent = 0.8;
-/// Paths of a plot are traced until they have this many pixels for each of its columns. Real takes
-/// have at most 26; noise about one posture, all of which is similar, has thousands, and more the
-/// longer it is.
-constexpr std::size_t most_pixels_a_column = 200;
-/// A pixel this near (samples) to a path lies on it.
-constexpr long near_path = 2;
-
-/// Where the paths run that were traced in a plot: however many they are, a place is looked up in
-/// its own column alone.
-class TracedPlaces {
- public:
-  explicit TracedPlaces(long columns) : places_(static_cast<std::size_t>(columns)) {}
-
-  void add(const SimilarPath& path) {
-    long x = std::max(0L, path.pixels.front().x - near_path);
-    for (const PlotPixel& pixel : path.pixels) {
-      for (x = std::max(x, pixel.x - near_path); x <= pixel.x; ++x) {
-        places_[static_cast<std::size_t>(x)].push_back(pixel.y);
-      }
-    }
-    pixels_ += path.pixels.size();
-  }
-
-  bool full() const { return pixels_ >= most_pixels_a_column * places_.size(); }
-
-  bool hold(const NearPair& pair) const {
-    return std::ranges::any_of(places_[static_cast<std::size_t>(pair.sample)], [&](long y) {
-      return std::labs(y - pair.other_sample) <= near_path;
-    });
-  }
-
- private:
-  std::vector<std::vector<long>> places_;  ///< of each column: other samples
-  std::size_t pixels_ = 0;
-};
 
 /// Extents of one take, each a running mean of those that are nearly the same.
 class ExtentSet {
@@ -99,41 +64,6 @@ void part_sides(long& begin, long& end, long& other_begin, long& other_end) {
   end = begin + lag;
   other_end = std::min(other_end, other_begin + lag);
 }
-
-/// The pairs of a plot as places of it, sorted.
-class PairPlaces {
- public:
-  PairPlaces(std::span<const NearPair> near_pairs, const std::vector<std::size_t>& pairs) {
-    for (const std::size_t i : pairs) {
-      places_.emplace_back(near_pairs[i].sample, near_pairs[i].other_sample);
-    }
-    std::ranges::sort(places_);
-  }
-
-  /// Whether a motion may go on from a pair to one of these, or from one of these to it: both
-  /// forwards, the slower by at most so many samples and none more than RepeatConstants::steepest
-  /// times as fast.
-  bool has_next_to(const NearPair& pair, long most_samples) const {
-    constexpr long steepest = RepeatConstants::steepest;
-    for (long x = 1; x <= steepest * most_samples; ++x) {
-      const long least = (x + steepest - 1) / steepest;
-      const long most = x <= most_samples ? steepest * x : most_samples;
-      const bool goes_on =
-          any_in_column(pair.sample + x, pair.other_sample + least, pair.other_sample + most) ||
-          any_in_column(pair.sample - x, pair.other_sample - most, pair.other_sample - least);
-      if (goes_on) return true;
-    }
-    return false;
-  }
-
- private:
-  bool any_in_column(long x, long first, long last) const {
-    const auto at = std::ranges::lower_bound(places_, std::pair(x, first));
-    return at != places_.end() && *at <= std::pair(x, last);
-  }
-
-  std::vector<std::pair<long, long>> places_;
-};
 
 /// Those pairs of a plot that another goes on from, or to; all where `most_samples` is 0.
 std::vector<std::size_t> without_lone(std::span<const NearPair> near_pairs,
