@@ -49,7 +49,8 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::show(const Progress& progress) {
   if (terminal_ == nullptr) return;
   const auto now = Clock::now();
-  if (visible_ && now - drawn_ < redraw_interval) return;
+  const bool done = progress.done >= progress.total;
+  if (visible_ && !done && now - drawn_ < redraw_interval) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   // The last column stays free: some terminals wrap when it is written.
   const std::string line = progress_line(what_, progress, elapsed, terminal_columns(terminal_) - 1);

@@ -14,7 +14,8 @@ namespace reprise::cli {
 std::string progress_line(std::string_view what, const Progress& progress, double elapsed_seconds,
                           std::size_t columns);
 
-/// Draws on a stream that is a terminal, at most ten times a second; clears its line when it ends.
+/// Draws on a stream that is a terminal, at most ten times a second and when all is done; clears
+/// its line when it ends.
 class ProgressBar {
  public:
   /// Draws nothing where `terminal` is null.

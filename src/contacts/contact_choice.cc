@@ -44,7 +44,7 @@ TakeContacts choose_contacts(const Skeleton& skeleton, const std::vector<Leg>& l
   if (!plain.skate) contacts.hold = in_between;
   for (;; ++contacts.hold) {
     ChannelMatrix channels = decoded;
-    apply_contacts(skeleton, legs, frame_rate, contacts, channels);
+    apply_contacts(skeleton, legs, frame_rate, contacts, moving_channels(decoded), channels);
     const Outcome held = outcome_of(skeleton, frame_rate, source, channels);
     if (held.mean_mm > Constants::most_error * plain.mean_mm) return {};
     if (!held.skate || contacts.hold == tightest) return contacts;

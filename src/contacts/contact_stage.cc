@@ -14,14 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-std::vector<bool> moving_channels(const ChannelMatrix& channels) {
-  std::vector<bool> moves;
-  for (Index c = 0; c < channels.cols(); ++c) {
-    moves.push_back((channels.col(c).array() != channels(0, c)).any());
-  }
-  return moves;
-}
-
 /// What is added to the places of a joint in the contacts of its point.
 using PathCorrector =
     std::function<ContactCorrection(const JointPath&, std::span<const ContactInterval>)>;
@@ -131,21 +123,29 @@ void hold_legs(const Skeleton& skeleton, std::span<const Leg> legs, const TakeCo
 
 }  // namespace
 
+std::vector<bool> moving_channels(const ChannelMatrix& channels) {
+  std::vector<bool> moves;
+  for (const auto& channel : channels.colwise()) {
+    moves.push_back(channel.size() > 0 && (channel.array() != channel[0]).any());
+  }
+  return moves;
+}
+
 void apply_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
-                    const TakeContacts& contacts, ChannelMatrix& channels) {
+                    const TakeContacts& contacts, const std::vector<bool>& moves,
+                    ChannelMatrix& channels) {
   if (contacts.intervals.empty() || channels.rows() == 0) return;
   const double half_mean_s =
       ContactStageConstants::half_means_s[static_cast<std::size_t>(contacts.hold)];
-  hold_legs(skeleton, legs, contacts, moving_channels(channels), channels,
-            [&](LegHolder& holder, const auto& own) {
-              holder.place();
-              holder.hold(
-                  own,
-                  [&](const JointPath& places, const auto& intervals) {
-                    return correct_path(places, frame_rate, intervals, half_mean_s);
-                  },
-                  LegChainConstants::rounds);
-            });
+  hold_legs(skeleton, legs, contacts, moves, channels, [&](LegHolder& holder, const auto& own) {
+    holder.place();
+    holder.hold(
+        own,
+        [&](const JointPath& places, const auto& intervals) {
+          return correct_path(places, frame_rate, intervals, half_mean_s);
+        },
+        LegChainConstants::rounds);
+  });
 }
 
 void steady_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,

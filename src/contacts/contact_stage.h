@@ -28,17 +28,20 @@ struct ContactStageConstants {
   static constexpr double free_weight = 0.02;
 };
 
+/// Which channels are not the same in all frames.
+std::vector<bool> moving_channels(const ChannelMatrix& channels);
+
 /// Turns the legs of a decoded take so that points stay where they stand during contacts. Nothing
-/// but rotation channels of legs changes, in contacts and the fades beside them. A leg that is too
-/// short reaches as far as it can. `legs` are those that the contacts were found with, of this
-/// skeleton or of one of the same structure; `contacts.intervals` as find_contacts gives
-/// them.
+/// but rotation channels of legs with `moves` (one a channel of a frame) changes, in contacts and
+/// the fades beside them. A leg that is too short reaches as far as it can. `legs` are those that
+/// the contacts were found with, of this skeleton or of one of the same structure;
+/// `contacts.intervals` as find_contacts gives them.
 void apply_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
-                    const TakeContacts& contacts, ChannelMatrix& channels);
+                    const TakeContacts& contacts, const std::vector<bool>& moves,
+                    ChannelMatrix& channels);
 
 /// The same for a motion that is within a few millimetres of its source, and changes it by less:
-/// points move as steadily as the source's in contacts, and nothing changes outside them. Only
-/// channels with `moves` turn (one a channel of a frame).
+/// points move as steadily as the source's in contacts, and nothing changes outside them.
 void steady_contacts(const Skeleton& skeleton, std::span<const Leg> legs, double frame_rate,
                      const TakeContacts& contacts, const std::vector<bool>& moves,
                      ChannelMatrix& channels);

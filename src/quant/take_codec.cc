@@ -190,7 +190,8 @@ ChannelMatrix motion_channels(const CoefficientSpace& space, const Skeleton& ske
       to_channels(space, skeleton, motion.tumbles,
                   dequantise(motion.knots, shape, motion.step_index), motion.switches);
   const std::vector<Leg> legs = find_legs(space.layout.reference);
-  apply_contacts(skeleton, legs, take.frame_rate, motion.contacts, channels);
+  apply_contacts(skeleton, legs, take.frame_rate, motion.contacts, moving_channels(channels),
+                 channels);
   return channels;
 }
 

@@ -4,6 +4,7 @@
 
 #include "exact/text_codec.h"
 #include "quant/take_codec.h"
+#include "refine/coarse_channels.h"
 #include "refine/refinement.h"
 #include "reprise/error.h"
 
@@ -82,8 +83,9 @@ ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::str
       }
       return decode_take(*stored.space, *empty.skeleton, shape, stored.bytes);
     case LayerKind::refinement:
-    case LayerKind::channels:
       return decode_refinement(*empty.skeleton, shape, stored.bytes);
+    case LayerKind::channels:
+      return decode_coarse_channels(*empty.skeleton, shape, stored.bytes);
     case LayerKind::text: {
       std::string decoded = decode_whole_text(stored.bytes, info, empty);
       ChannelMatrix channels = parsed_channels(empty, decoded, info.name);

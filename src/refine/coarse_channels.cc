@@ -27,6 +27,8 @@ constexpr double hope = 1.3;
 /// A step is kept only if the mean is this much below what was promised (part of it), for decimals
 /// of a file and other machines' sines.
 constexpr double margin = 1e-4;
+/// Times that contacts are chosen.
+constexpr int contact_rounds = 2;
 
 std::size_t moving_channels(const Take& take) {
   std::size_t moving = 0;
@@ -55,13 +57,13 @@ class CoarseSearch {
     if (!choose_span(step)) return std::nullopt;
     std::optional<Candidate> best = search(step);
     if (!best || best->bytes.size() > options_.most_bytes) return std::nullopt;
-    if (options_.contacts) {
-      contacts_ = choose_contacts(*take_.skeleton, best->coded.legs, take_.frame_rate, positions_,
-                                  best->decoded);
-      if (!contacts_.intervals.empty()) {
-        // What the source's feet slide may be more than the error that is allowed.
-        if (auto held = search(best->step)) best = std::move(held);
-      }
+    // Chosen again at the step that is found.
+    for (int round = 0; options_.contacts && round < contact_rounds; ++round) {
+      if (!holds_change(*best)) break;
+      std::optional<Candidate> held = search(best->step);
+      // What the source's feet slide may be more than the error that is allowed.
+      if (!held) break;
+      best = std::move(held);
     }
     if (best->bytes.size() > options_.most_bytes) return std::nullopt;
     const std::size_t contact_bytes = std::min(best->bytes.size(), best->coded.contact_bytes());
@@ -100,6 +102,16 @@ class CoarseSearch {
     }
     tried.mean_mm /= static_cast<double>(std::max<std::size_t>(1, distances.size()));
     return tried;
+  }
+
+  /// Chooses contacts for what a candidate is without them; true if they are not those from before.
+  bool holds_change(const Candidate& candidate) {
+    TakeContacts chosen =
+        choose_contacts(*take_.skeleton, candidate.coded.legs, take_.frame_rate, positions_,
+                        candidate.coded.trajectories(*take_.skeleton));
+    const bool change = chosen != contacts_;
+    contacts_ = std::move(chosen);
+    return change;
   }
 
   /// The span with which bytes and error are least at a step; false: both are too large to hope for
@@ -147,6 +159,14 @@ std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions&
   if (take.frames() == 0 || options.most_bytes < least_channel_bytes * moving_channels(take))
     return std::nullopt;
   return CoarseSearch(take, options).run();
+}
+
+ChannelMatrix decode_coarse_channels(const Skeleton& skeleton, const TakeShape& shape,
+                                     std::span<const std::uint8_t> bytes) {
+  const CodedChannels coded = CodedChannels::decode(skeleton, shape, bytes);
+  ChannelMatrix channels = coded.trajectories(skeleton);
+  coded.hold_feet(skeleton, channels);
+  return channels;
 }
 
 }  // namespace reprise

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "refine/refinement.h"
 
@@ -17,8 +19,12 @@ struct CoarseOptions {
 
 /// Channels from the root outwards, as in a refinement, at a step that is the same for all frames
 /// and joints: the coarsest that keeps the mean. It needs no axes, so that takes that are long and
-/// unlike the others of their library are smaller so. `decode_refinement` decodes it. Nothing where
-/// it would be larger than `most_bytes`.
+/// unlike the others of their library are smaller so. `decode_coarse_channels` gives its `decoded`.
+/// Nothing where it would be larger than `most_bytes`.
 std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions& options);
+
+/// Throws Error (damaged).
+ChannelMatrix decode_coarse_channels(const Skeleton& skeleton, const TakeShape& shape,
+                                     std::span<const std::uint8_t> bytes);
 
 }  // namespace reprise

@@ -62,17 +62,21 @@ Eigen::VectorXd CodedChannels::trajectory(std::size_t place) const {
   return values.col(0);
 }
 
-ChannelMatrix CodedChannels::channels(const Skeleton& skeleton) const {
+ChannelMatrix CodedChannels::trajectories(const Skeleton& skeleton) const {
   ChannelMatrix result(shape.frames, skeleton.channel_count);
   const std::vector<int> order = coding_order(skeleton);
   for (std::size_t i = 0; i < order.size(); ++i) result.col(order[i]) = trajectory(i);
-  hold_feet(skeleton, result);
   return result;
+}
+
+void CodedChannels::steady_feet(const Skeleton& skeleton, ChannelMatrix& channels) const {
+  if (contacts.intervals.empty()) return;
+  steady_contacts(skeleton, legs, frame_rate, contacts, moving_channels(skeleton), channels);
 }
 
 void CodedChannels::hold_feet(const Skeleton& skeleton, ChannelMatrix& channels) const {
   if (contacts.intervals.empty()) return;
-  steady_contacts(skeleton, legs, frame_rate, contacts, moving_channels(skeleton), channels);
+  apply_contacts(skeleton, legs, frame_rate, contacts, moving_channels(skeleton), channels);
 }
 
 std::vector<bool> CodedChannels::moving_channels(const Skeleton& skeleton) const {

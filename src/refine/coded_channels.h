@@ -33,9 +33,12 @@ struct CodedChannels {
 
   /// Frames of the channel at a place of the coding order, decoded; contacts change it yet.
   Eigen::VectorXd trajectory(std::size_t place) const;
-  /// All channels, with feet that stand in contacts.
-  ChannelMatrix channels(const Skeleton& skeleton) const;
-  /// Puts feet where they stand in `contacts`: the last step of decoding.
+  /// All of them.
+  ChannelMatrix trajectories(const Skeleton& skeleton) const;
+  /// The last step of decoding, where a bound holds: feet move as steadily as the source's while
+  /// they stand in `contacts`.
+  void steady_feet(const Skeleton& skeleton, ChannelMatrix& channels) const;
+  /// The last step of decoding, where just a mean holds: feet are put where they stand.
   void hold_feet(const Skeleton& skeleton, ChannelMatrix& channels) const;
   /// One a channel of a frame: its numbers say more than one value for all frames.
   std::vector<bool> moving_channels(const Skeleton& skeleton) const;

@@ -87,7 +87,7 @@ std::optional<double> ContactFit::skate(const PositionMatrix& places) const {
 
 void ContactFit::hold(const CodedChannels& coded, ChannelMatrix& channels,
                       PositionMatrix& places) const {
-  coded.hold_feet(*take_.skeleton, channels);
+  coded.steady_feet(*take_.skeleton, channels);
   const Skeleton& skeleton = *take_.skeleton;
   std::vector<bool> held(static_cast<std::size_t>(take_.frames()), false);
   for (const ContactInterval& contact : coded.contacts.intervals) {

@@ -14,7 +14,10 @@ Refinement refine(const Take& take, const RefinementOptions& options) {
 
 ChannelMatrix decode_refinement(const Skeleton& skeleton, const TakeShape& shape,
                                 std::span<const std::uint8_t> bytes) {
-  return CodedChannels::decode(skeleton, shape, bytes).channels(skeleton);
+  const CodedChannels coded = CodedChannels::decode(skeleton, shape, bytes);
+  ChannelMatrix channels = coded.trajectories(skeleton);
+  coded.steady_feet(skeleton, channels);
+  return channels;
 }
 
 }  // namespace reprise

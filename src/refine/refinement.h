@@ -12,7 +12,7 @@ namespace reprise {
 
 struct Refinement {
   std::vector<std::uint8_t> bytes;
-  ChannelMatrix decoded;          ///< what `decode_refinement` gives
+  ChannelMatrix decoded;          ///< what a decoder makes of them
   double max_mm = 0;              ///< largest distance of any joint or end site from the source
   std::size_t contact_bytes = 0;  ///< those of `bytes` that say when feet stand
 };
@@ -30,7 +30,7 @@ struct RefinementOptions {
 /// and a bound must not depend on it.
 Refinement refine(const Take& take, const RefinementOptions& options);
 
-/// Throws Error (damaged).
+/// What `refine` says in its bytes. Throws Error (damaged).
 ChannelMatrix decode_refinement(const Skeleton& skeleton, const TakeShape& shape,
                                 std::span<const std::uint8_t> bytes);
 

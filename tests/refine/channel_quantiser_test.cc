@@ -56,7 +56,7 @@ TEST_P(ChannelQuantisers, DecodedChannelsAreThoseOfTheKnots) {
   CodedChannels coded = fresh;
   quantiser.set_steps(step_mm, coded.steps);
   const ChannelMatrix decoded = quantiser.quantise(coded);
-  EXPECT_TRUE(decoded == coded.channels(*take.skeleton));
+  EXPECT_TRUE(decoded == coded.trajectories(*take.skeleton));
 }
 
 TEST_P(ChannelQuantisers, JointsAreNearerThanIfChannelsKnewNothingOfEachOther) {

@@ -33,7 +33,7 @@ TEST_P(CoarseChannels, KeepTheirMeanAndComeNearIt) {
     const auto coarse = coarse_channels(take, {mean, true, any_size});
     ASSERT_TRUE(coarse) << mean;
     const ChannelMatrix decoded =
-        decode_refinement(*take.skeleton, {take.frames(), take.frame_rate}, coarse->bytes);
+        decode_coarse_channels(*take.skeleton, {take.frames(), take.frame_rate}, coarse->bytes);
     EXPECT_TRUE(decoded == coarse->decoded) << mean;
     const PositionErrors errors = errors_of(take, decoded);
     EXPECT_LE(errors.mean, mean);
@@ -51,6 +51,20 @@ TEST_P(CoarseChannels, AreNoLargerThanWhatThereIs) {
   EXPECT_FALSE(coarse_channels(take, {20, true, bytes - 1}));
   EXPECT_FALSE(coarse_channels(take, {20, true, bytes / 2}));
   EXPECT_FALSE(coarse_channels(take, {20, true, 0}));
+}
+
+TEST_P(CoarseChannels, FeetStandAsStillAsTheSources) {
+  const Take take = synthetic_take(GetParam(), 12);
+  const PositionMatrix source = joint_positions(*take.skeleton, take.channels);
+  const auto slides = [&](bool contacts) {
+    const auto coarse = coarse_channels(take, {20, contacts, any_size});
+    return foot_skate(*take.skeleton, source, joint_positions(*take.skeleton, coarse->decoded),
+                      take.frame_rate);
+  };
+  const auto held = slides(true), free = slides(false);
+  ASSERT_TRUE(held && free);
+  EXPECT_LE(held->decoded, 1.1 * held->original);
+  EXPECT_GT(free->decoded, 1.5 * free->original);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, CoarseChannels,
