@@ -25,8 +25,8 @@ struct ClipPlanConstants {
   /// Windows for candidates: how many neighbours each looks for, and how far they are apart (s).
   std::size_t neighbours = 6;
   double hop_s = 0.5;
-  /// As NearWindowConstants::most_looks. Of 989 takes none needs more to find its very nearest;
-  /// where thousands of windows are equal, or noise, it is what keeps the cost of a take.
+  /// As NearWindowConstants::most_looks. An archive of 989 takes is the same without a limit; where
+  /// thousands of windows are equal, or noise, it is what keeps the cost of a take.
   long most_looks = 1000;
   /// No repeats are looked for around a clip of which this part is explained by others.
   double explained_cover = 0.5;
