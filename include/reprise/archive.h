@@ -168,6 +168,9 @@ struct IngestOptions {
   bool dry_run = false;
   bool contacts = true;  ///< feet are held where they stand
   bool repeats = true;   ///< false: each take is one unique clip without a behaviour group
+  /// What coding takes may need at once, in bytes; 0: what the machine has free. A take that needs
+  /// more by itself is rejected.
+  std::size_t memory_bytes = 0;
 };
 
 struct RejectedInput {

@@ -10,6 +10,7 @@
 #include "archive/clip_links.h"
 #include "archive/coded_take.h"
 #include "archive/input_files.h"
+#include "archive/memory_budget.h"
 #include "archive/metadata.h"
 #include "archive/parallel.h"
 #include "archive/space_builder.h"
@@ -30,7 +31,10 @@ class Ingest {
  public:
   Ingest(const std::filesystem::path& archive, const IngestOptions& options,
          const ProgressSink& progress)
-      : archive_(archive), options_(options), progress_(progress) {}
+      : archive_(archive),
+        options_(options),
+        progress_(progress),
+        memory_bytes_(options.memory_bytes > 0 ? options.memory_bytes : free_memory()) {}
 
   IngestReport run() {
     if (options_.read.asf) read_whole_file(*options_.read.asf);
@@ -74,7 +78,7 @@ class Ingest {
 
   void survey() {
     Survey survey = survey_files(files_, options_, metadata_, store_ ? &*store_ : nullptr,
-                                 [&](const std::string& current) { tick(current); });
+                                 memory_bytes_, [&](const std::string& current) { tick(current); });
     std::ranges::move(survey.rejected, std::back_inserter(report_.rejected));
     report_.skipped = std::move(survey.skipped);
     report_.other_fidelity = std::move(survey.other_fidelity);
@@ -111,6 +115,7 @@ class Ingest {
   void code_and_store(const std::vector<FreshTake>& takes,
                       const std::map<std::string, SpaceAssignment>& spaces) {
     std::size_t bytes = 0, stored = 0;
+    MemoryBudget memory(memory_bytes_);
     const auto commit = [&] {
       if (stored > 0) store_->commit();
       bytes = stored = 0;
@@ -121,6 +126,8 @@ class Ingest {
       produce_in_order(
           takes.size(), options_.jobs,
           [&](std::size_t i) {
+            const TakeOutline& outline = takes[i].outline;
+            const auto share = memory.take(coding_memory(*outline.skeleton, outline.frames));
             return code_take(takes[i], spaces.at(takes[i].file.name), plan_, metadata_, options_);
           },
           [&](std::size_t i, CodedTake coded) {
@@ -155,6 +162,7 @@ class Ingest {
   std::filesystem::path archive_;
   const IngestOptions& options_;
   const ProgressSink& progress_;
+  std::size_t memory_bytes_;
   MetadataTable metadata_;
   std::vector<InputFile> files_;
   std::vector<FreshTake> fresh_;

@@ -1,7 +1,10 @@
 #include "archive/survey.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 
+#include "archive/memory_budget.h"
 #include "archive/parallel.h"
 
 namespace reprise {
@@ -55,6 +58,28 @@ void decide(const InputFile& file, TakeOutline outline, const TakeRecord& stored
   }
 }
 
+/// Moves takes that cannot be coded on this machine from `fresh` to `rejected`.
+void reject_too_large(std::size_t memory_bytes, Survey& survey) {
+  std::vector<FreshTake> fitting;
+  for (FreshTake& fresh : survey.fresh) {
+    const TakeOutline& outline = fresh.outline;
+    const std::size_t needed = coding_memory(*outline.skeleton, outline.frames);
+    if (needed <= memory_bytes) {
+      fitting.push_back(std::move(fresh));
+      continue;
+    }
+    constexpr double megabyte = 1e6;
+    survey.rejected.push_back(
+        {fresh.file.path.string(), 0,
+         fmt::format(
+             "coding its {} frames takes about {:.0f} MB of memory, and {:.0f} MB are free; "
+             "cut it into shorter takes, or use a machine with more memory",
+             outline.frames, static_cast<double>(needed) / megabyte,
+             static_cast<double>(memory_bytes) / megabyte)});
+  }
+  survey.fresh = std::move(fitting);
+}
+
 }  // namespace
 
 RejectedInput rejection(const InputFile& file, const Error& error) {
@@ -66,7 +91,7 @@ RejectedInput rejection(const InputFile& file, const Error& error) {
 
 Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& options,
                     const MetadataTable& metadata, const ArchiveStore* store,
-                    const std::function<void(const std::string&)>& tick) {
+                    std::size_t memory_bytes, const std::function<void(const std::string&)>& tick) {
   Survey survey;
   produce_in_order(
       files.size(), options.jobs,
@@ -84,6 +109,7 @@ Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& op
           survey.fresh.push_back({files[i], std::move(surveyed.outline), false});
         }
       });
+  reject_too_large(memory_bytes, survey);
   return survey;
 }
 

@@ -19,10 +19,11 @@ struct Survey {
 };
 
 /// Reads every file once and compares it with what `store` holds (null: nothing). All lists are in
-/// the order of the files, whatever the number of threads. `tick` hears of each file.
+/// the order of the files, whatever the number of threads. Takes that coding would need more than
+/// `memory_bytes` for are rejected. `tick` hears of each file.
 Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& options,
                     const MetadataTable& metadata, const ArchiveStore* store,
-                    const std::function<void(const std::string&)>& tick);
+                    std::size_t memory_bytes, const std::function<void(const std::string&)>& tick);
 
 /// What a report says of a file that cannot be taken in.
 RejectedInput rejection(const InputFile& file, const Error& error);
