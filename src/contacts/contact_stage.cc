@@ -125,8 +125,9 @@ void hold_legs(const Skeleton& skeleton, std::span<const Leg> legs, const TakeCo
 
 std::vector<bool> moving_channels(const ChannelMatrix& channels) {
   std::vector<bool> moves;
-  for (const auto& channel : channels.colwise()) {
-    moves.push_back(channel.size() > 0 && (channel.array() != channel[0]).any());
+  for (Index c = 0; c < channels.cols(); ++c) {
+    // Where there are no frames, there is no memory to point into either.
+    moves.push_back(channels.rows() > 0 && (channels.col(c).array() != channels(0, c)).any());
   }
   return moves;
 }

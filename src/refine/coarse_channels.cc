@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contacts/contact_choice.h"
+#include "contacts/contact_stage.h"
 #include "quant/coarsest_step.h"
 #include "refine/channel_quantiser.h"
 #include "reprise/model/kinematics.h"
@@ -29,13 +30,6 @@ constexpr double hope = 1.3;
 constexpr double margin = 1e-4;
 /// Times that contacts are chosen.
 constexpr int contact_rounds = 2;
-
-std::size_t moving_channels(const Take& take) {
-  std::size_t moving = 0;
-  for (const auto& channel : take.channels.colwise())
-    moving += (channel.array() != channel[0]).any() ? 1 : 0;
-  return moving;
-}
 
 double step_mm(int index) {
   return std::exp2(static_cast<double>(index - step_one) / steps_per_octave);
@@ -156,7 +150,9 @@ class CoarseSearch {
 }  // namespace
 
 std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions& options) {
-  if (take.frames() == 0 || options.most_bytes < least_channel_bytes * moving_channels(take))
+  const auto moving = std::ranges::count(moving_channels(take.channels), true);
+  if (take.frames() == 0 ||
+      options.most_bytes < least_channel_bytes * static_cast<std::size_t>(moving))
     return std::nullopt;
   return CoarseSearch(take, options).run();
 }

@@ -194,5 +194,12 @@ TEST_P(ContactStage, AreChosenAsStillAsTheSourceAndNotWhereTheyAreNotNeeded) {
   EXPECT_TRUE(choose_contacts(*skeleton_, legs_, rate, sliding, plain_).intervals.empty());
 }
 
+TEST(MovingChannels, AreThoseThatChange) {
+  ChannelMatrix channels = ChannelMatrix::Constant(5, 3, 1.5);
+  channels(3, 1) = 2;
+  EXPECT_EQ(moving_channels(channels), (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(moving_channels(ChannelMatrix(0, 3)), std::vector<bool>(3, false));
+}
+
 }  // namespace
 }  // namespace reprise
