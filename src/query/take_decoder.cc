@@ -32,6 +32,10 @@ bool keeps(const LayerRecord& layer, FidelityTier tier) {
 /// The number of frames decides how much memory a decoder takes. It can be no more than the text
 /// that the take is said to come from had room for, and that text no larger than texts may be.
 void check_frames(const TakeInfo& take, const Skeleton& skeleton) {
+  if (take.frames < 1) {
+    throw Error(ErrorCode::damaged,
+                "the archive is damaged: take '" + take.name + "' has no frames");
+  }
   const auto channels = static_cast<std::uint64_t>(skeleton.channel_count);
   const std::uint64_t numbers =
       skeleton.format == MotionFormat::bvh ? channels : channels / InputLimits::channels_per_value;

@@ -124,6 +124,11 @@ TEST_F(FalseRecords, FramesThatNoTextHasAreDamage) {
   expect_damage(short_, "a trillion frames of few bytes");
 }
 
+TEST_F(FalseRecords, NoFramesAreDamage) {
+  short_.info.frames = 0;
+  expect_damage(short_, "no file without frames is taken in");
+}
+
 TEST_F(FalseRecords, TextsThatNoFileHasAreDamage) {
   short_.info.frames = long{1} << 40;
   short_.info.text_bytes = std::uint64_t{1} << 60;

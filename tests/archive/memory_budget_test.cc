@@ -77,7 +77,7 @@ TEST_F(ArchiveTest, ATakeThatNeedsMoreMemoryThanThereIsIsRejected) {
   options.paths = {folder_ / "takes"};
   options.fidelity = {FidelityTier::preview, 20};
   options.jobs = 2;
-  options.memory_bytes = 35'000'000;
+  options.memory_bytes = 10'000'000;
   const IngestReport report = ingest(folder_ / "whole", options, {});
   EXPECT_EQ(report.added.size(), 2u);
   ASSERT_EQ(report.rejected.size(), 1u);
