@@ -9,8 +9,8 @@
 
 namespace reprise {
 
-/// Bytes that a process may still take: what the system and its control group (a container's limit)
-/// leave. The largest number where neither says.
+/// Bytes that a process may still take: the lesser of what the system has available and what its
+/// control group (a container) may have in all. The largest number where neither says.
 std::size_t free_memory();
 
 /// About what coding a take needs at most, in bytes; measured,

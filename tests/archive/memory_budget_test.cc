@@ -1,6 +1,7 @@
 #include "archive/memory_budget.h"
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include "archive/archive_fixture.h"
@@ -32,7 +33,19 @@ TEST(MemoryBudgetTest, NeverGivesMoreThanThereIs) {
 
 TEST(MemoryBudgetTest, WhatIsLargerThanAllGoesAlone) {
   MemoryBudget budget(10);
-  { const auto share = budget.take(1000); }
+  std::atomic<bool> beside{false};
+  std::jthread other;
+  {
+    const auto share = budget.take(1000);
+    other = std::jthread([&] {
+      const auto small = budget.take(1);
+      beside = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(beside);
+  }
+  other.join();
+  EXPECT_TRUE(beside);
   const auto first = budget.take(4), second = budget.take(6);
 }
 
