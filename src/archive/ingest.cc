@@ -15,6 +15,7 @@
 #include "archive/parallel.h"
 #include "archive/space_builder.h"
 #include "archive/survey.h"
+#include "model/free_memory.h"
 #include "reprise/archive.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"

@@ -9,10 +9,6 @@
 
 namespace reprise {
 
-/// Bytes that a process may still take: the lesser of what the system has available and what its
-/// control group (a container) may have in all. The largest number where neither says.
-std::size_t free_memory();
-
 /// About what coding a take needs at most, in bytes; measured,
 /// docs/findings/2026-11-27-long-takes.md.
 std::size_t coding_memory(const Skeleton& skeleton, long frames);

@@ -1,8 +1,11 @@
 #include "query/take_decoder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "exact/text_codec.h"
+#include "model/free_memory.h"
 #include "quant/take_codec.h"
 #include "refine/coarse_channels.h"
 #include "refine/refinement.h"
@@ -13,6 +16,8 @@ namespace {
 
 /// In the file's units or degrees; a source has at most InputLimits::magnitude.
 constexpr double greatest_channel = 1e12;
+/// What takes no more memory than that is decoded without a look at how much there is.
+constexpr std::size_t always_there = std::size_t{256} << 20;
 
 bool keeps(const LayerRecord& layer, FidelityTier tier) {
   switch (tier) {
@@ -102,6 +107,22 @@ ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::str
 
 }  // namespace
 
+std::size_t decoding_memory(const Skeleton& skeleton, long frames) {
+  constexpr std::size_t channel_bytes = 40;
+  return static_cast<std::size_t>(frames) * channel_bytes *
+         static_cast<std::size_t>(skeleton.channel_count);
+}
+
+void check_decoding_memory(const TakeInfo& take, const Skeleton& skeleton, std::size_t free) {
+  constexpr std::size_t megabyte = 1'000'000;
+  const std::size_t needed = decoding_memory(skeleton, take.frames);
+  if (needed <= free) return;
+  throw Error(ErrorCode::limit,
+              fmt::format("decoding take '{}' of {} frames needs about {} MB of memory, and {} MB "
+                          "are free: decode it on a machine that has more",
+                          take.name, take.frames, needed / megabyte, free / megabyte));
+}
+
 std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier) {
   if (!tier) return take.layers.size() - 1;
   for (std::size_t i = 0; i < take.layers.size(); ++i) {
@@ -123,6 +144,9 @@ Take decode_layer(const StoredLayer& stored, std::string* text) {
   Take take = empty_take(stored.proportions, stored.take.format);
   take.name = stored.take.name;
   check_frames(stored.take, *take.skeleton);
+  if (decoding_memory(*take.skeleton, stored.take.frames) > always_there) {
+    check_decoding_memory(stored.take, *take.skeleton, free_memory());
+  }
   take.channels = channels_of(stored, take, text);
   if (take.frames() != stored.take.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +

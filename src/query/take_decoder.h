@@ -20,7 +20,15 @@ struct StoredLayer {
   const ProportionsRecord& proportions;
   const CodedSpace* space;  ///< of coefficients
 };
-/// Reading is for one thread at a time, decoding is not. Both throw Error (damaged).
+/// About what decoding a layer of a take needs at most, in bytes; measured,
+/// docs/findings/2026-11-27-long-takes.md.
+std::size_t decoding_memory(const Skeleton& skeleton, long frames);
+/// Few bytes may well be very many frames in which nothing moves: what the `free` bytes of the
+/// machine cannot hold is told, not tried. Throws Error (limit).
+void check_decoding_memory(const TakeInfo& take, const Skeleton& skeleton, std::size_t free);
+
+/// Reading is for one thread at a time, decoding is not. Both throw Error (damaged), decoding Error
+/// (limit) where the machine has not the memory.
 StoredLayer read_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer);
 Take decode_layer(const StoredLayer& stored, std::string* text = nullptr);
 

@@ -1,0 +1,16 @@
+#include "model/free_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace reprise {
+namespace {
+
+TEST(FreeMemoryTest, IsAtLeastWhatCanBeHad) {
+  constexpr std::size_t bytes = std::size_t{1} << 20;
+  EXPECT_GT(free_memory(), bytes);
+}
+
+}  // namespace
+}  // namespace reprise
