@@ -6,7 +6,7 @@
 #include <memory>
 #include <new>
 
-#include "reprise/error.h"
+#include "exact/damaged_text.h"
 
 namespace reprise {
 namespace {
@@ -32,10 +32,6 @@ std::vector<std::uint8_t> compress(ZSTD_CCtx* context, std::string_view text) {
   frame.resize(size);
   frame.erase(frame.begin(), frame.begin() + magic.size());
   return frame;
-}
-
-[[noreturn]] void throw_damaged(const char* why) {
-  throw Error(ErrorCode::damaged, std::string("a coded text is damaged: ") + why);
 }
 
 }  // namespace
@@ -67,8 +63,8 @@ std::string decompress_plain(std::span<const std::uint8_t> frame, std::size_t mo
   for (bool body = false;;) {
     ZSTD_outBuffer out{piece.data(), piece.size(), 0};
     const std::size_t left = ZSTD_decompressStream(context.get(), &out, &in);
-    if (ZSTD_isError(left)) throw_damaged(ZSTD_getErrorName(left));
-    if (out.pos > most - text.size()) throw_damaged("it is longer than it says");
+    if (ZSTD_isError(left)) throw_damaged_text(ZSTD_getErrorName(left));
+    if (out.pos > most - text.size()) throw_damaged_text("it is longer than it says");
     text.append(piece.data(), out.pos);
     if (left == 0) break;
     if (in.pos == in.size && !body) {
@@ -76,9 +72,9 @@ std::string decompress_plain(std::span<const std::uint8_t> frame, std::size_t mo
       body = true;
       continue;
     }
-    if (in.pos == in.size && out.pos < out.size) throw_damaged("it ends too early");
+    if (in.pos == in.size && out.pos < out.size) throw_damaged_text("it ends too early");
   }
-  if (in.pos != in.size) throw_damaged("bytes follow its end");
+  if (in.pos != in.size) throw_damaged_text("bytes follow its end");
   return text;
 }
 
