@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "exact/damaged_text.h"
 #include "exact/number_text.h"
 #include "exact/plain_frame.h"
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "exact/damaged_text.h"
+
 namespace reprise {
 
 /// Codes any bytes. `known_text` is what the decoder has already: of a BVH the text before the
@@ -19,6 +21,6 @@ std::vector<std::uint8_t> encode_text(std::string_view text, std::string_view kn
 /// that `encode_text` did not write, where it can be told, and for a text longer than `most`:
 /// a few bytes can be any number of equal lines.
 std::string decode_text(std::span<const std::uint8_t> coded, std::string_view known_text,
-                        std::size_t most = std::size_t{1} << 31);
+                        std::size_t most = TextLimits::bytes);
 
 }  // namespace reprise

@@ -8,6 +8,7 @@
 #include "model/free_memory.h"
 #include "quant/take_codec.h"
 #include "refine/coarse_channels.h"
+#include "refine/coded_channels.h"
 #include "refine/refinement.h"
 #include "reprise/error.h"
 
@@ -52,6 +53,17 @@ void check_frames(const TakeInfo& take, const Skeleton& skeleton) {
   }
   throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
                                       "' has more frames than a text can hold");
+}
+
+/// What can be told to be damaged is not called too large.
+void check_memory(const StoredLayer& stored, const Skeleton& skeleton) {
+  if (decoding_memory(skeleton, stored.take.frames) <= always_there) return;
+  const bool channels = stored.kind == LayerKind::refinement || stored.kind == LayerKind::channels;
+  if (channels && !channels_fit(stored.bytes.size(), skeleton, stored.take.frames)) {
+    throw Error(ErrorCode::damaged, "the archive is damaged: take '" + stored.take.name +
+                                        "' has more frames than its bytes can hold");
+  }
+  check_decoding_memory(stored.take, skeleton, free_memory());
 }
 
 /// What a BVH begins with is stored with its skeleton.
@@ -144,9 +156,7 @@ Take decode_layer(const StoredLayer& stored, std::string* text) {
   Take take = empty_take(stored.proportions, stored.take.format);
   take.name = stored.take.name;
   check_frames(stored.take, *take.skeleton);
-  if (decoding_memory(*take.skeleton, stored.take.frames) > always_there) {
-    check_decoding_memory(stored.take, *take.skeleton, free_memory());
-  }
+  check_memory(stored, *take.skeleton);
   take.channels = channels_of(stored, take, text);
   if (take.frames() != stored.take.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +

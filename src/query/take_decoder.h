@@ -12,6 +12,13 @@ namespace reprise {
 /// where none does.
 std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier);
 
+/// About what decoding a layer of a take needs at most, in bytes; measured,
+/// docs/findings/2026-11-27-long-takes.md.
+std::size_t decoding_memory(const Skeleton& skeleton, long frames);
+/// Few bytes may well be very many frames in which nothing moves: what the `free` bytes of the
+/// machine cannot hold is told, not tried. Throws Error (limit).
+void check_decoding_memory(const TakeInfo& take, const Skeleton& skeleton, std::size_t free);
+
 /// A layer as it is stored, with what decoding it needs; it refers to what the archive has at hand.
 struct StoredLayer {
   TakeInfo take;
@@ -20,12 +27,6 @@ struct StoredLayer {
   const ProportionsRecord& proportions;
   const CodedSpace* space;  ///< of coefficients
 };
-/// About what decoding a layer of a take needs at most, in bytes; measured,
-/// docs/findings/2026-11-27-long-takes.md.
-std::size_t decoding_memory(const Skeleton& skeleton, long frames);
-/// Few bytes may well be very many frames in which nothing moves: what the `free` bytes of the
-/// machine cannot hold is told, not tried. Throws Error (limit).
-void check_decoding_memory(const TakeInfo& take, const Skeleton& skeleton, std::size_t free);
 
 /// Reading is for one thread at a time, decoding is not. Both throw Error (damaged), decoding Error
 /// (limit) where the machine has not the memory.

@@ -21,16 +21,14 @@ using Eigen::MatrixXd;
   throw Error(ErrorCode::damaged, "the motion of a take is not as it was written");
 }
 
-/// Whether `bytes` can hold so many frames: each knot is a decision, and what is stored as it is
-/// takes more. What an encoder leaves out at the end counts, too.
-bool can_hold(std::size_t bytes, const Skeleton& skeleton, long frames) {
+}  // namespace
+
+bool channels_fit(std::size_t bytes, const Skeleton& skeleton, long frames) {
   constexpr std::size_t most_left_out = 32;
   const std::size_t decisions = (bytes + most_left_out) * most_decisions_per_byte;
   const auto channels = static_cast<std::size_t>(std::max(1, skeleton.channel_count));
   return static_cast<std::size_t>(frames) <= decisions / channels;
 }
-
-}  // namespace
 
 TimeScales time_scales(const TakeShape& take, double seconds) {
   const double apart = std::max(1.0, seconds * take.frame_rate);
@@ -120,7 +118,7 @@ std::size_t CodedChannels::contact_bytes() const {
 CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& take,
                                     std::span<const std::uint8_t> bytes) {
   // The number of frames is the row's; it decides how much memory is taken.
-  if (!can_hold(bytes.size(), skeleton, take.frames)) throw_damaged();
+  if (!channels_fit(bytes.size(), skeleton, take.frames)) throw_damaged();
   RangeDecoder decoder(bytes);
   TimeScales time;
   time.levels = static_cast<int>(decoder.decode_plain(TimeScales::bits));

@@ -25,6 +25,10 @@ struct TimeScales {
 /// Coarsest knots about `seconds` apart, and at least two of them where there are two frames.
 TimeScales time_scales(const TakeShape& take, double seconds);
 
+/// Whether so many coded bytes can hold so many frames: each knot is a decision, and what is stored
+/// as it is takes more. What an encoder leaves out at the end counts, too.
+bool channels_fit(std::size_t bytes, const Skeleton& skeleton, long frames);
+
 struct CodedChannels {
   CodedChannels(const Skeleton& skeleton, const TakeShape& take, TimeScales scales);
   /// Throws Error (damaged).

@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-
 namespace reprise {
 namespace {
 
-TEST(FreeMemoryTest, IsAtLeastWhatCanBeHad) {
+TEST(FreeMemoryTest, TheMachineHasSome) {
   constexpr std::size_t bytes = std::size_t{1} << 20;
   EXPECT_GT(free_memory(), bytes);
 }
