@@ -151,7 +151,8 @@ struct VerifyReport {
 struct Progress {
   std::size_t done = 0;
   std::size_t total = 0;
-  std::string current;  ///< the take or file at hand
+  std::string current;   ///< the take or file at hand
+  bool waiting = false;  ///< for other processes that read the archive; nothing was done since
 };
 /// Called from one thread at a time. Returning false asks to stop: the call ends with Error
 /// (interrupted) after the batch at hand is complete or rolled back.
@@ -247,7 +248,8 @@ class Archive {
   /// content.
   std::vector<ClipInfo> find_clips(const std::string& id) const;
 
-  /// What an ID names: a whole take, or the frames of a clip in its (first) take.
+  /// What an ID names: a whole take, or the frames of a clip. Of a clip of several takes, in the
+  /// one that is stored with the most fidelity, the first by name of equal ones.
   struct Selection {
     TakeInfo take;
     FrameRange frames;
@@ -283,10 +285,12 @@ class Archive {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Takes out takes by ID, all or none. Throws Error (not_found).
-void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids);
+/// Takes out takes by ID, all or none. `progress` is called while other processes keep it waiting.
+/// Throws Error (not_found, locked).
+void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids,
+                  const ProgressSink& progress = {});
 
-/// Gives back the space of removed takes.
-void compact(const std::filesystem::path& archive);
+/// Gives back the space of removed takes. `progress` as above. Throws Error (locked).
+void compact(const std::filesystem::path& archive, const ProgressSink& progress = {});
 
 }  // namespace reprise

@@ -6,13 +6,22 @@
 
 namespace reprise {
 
-void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids) {
+namespace {
+
+WaitNotice notice_of(const ProgressSink& progress) {
+  return [&progress] { return !progress || progress({0, 1, {}, true}); };
+}
+
+}  // namespace
+
+void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids,
+                  const ProgressSink& progress) {
   std::vector<std::string> names;
   {
     const Archive reader(archive);
     for (const std::string& id : ids) names.push_back(reader.find_take(id).name);
   }
-  ArchiveStore store = ArchiveStore::open_for_writing(archive);
+  ArchiveStore store = ArchiveStore::open_for_writing(archive, notice_of(progress));
   store.begin();
   try {
     for (const std::string& name : names) {
@@ -26,9 +35,9 @@ void remove_takes(const std::filesystem::path& archive, const std::vector<std::s
   store.commit();
 }
 
-void compact(const std::filesystem::path& archive) {
+void compact(const std::filesystem::path& archive, const ProgressSink& progress) {
   { const Archive must_be_readable(archive); }
-  ArchiveStore::open_for_writing(archive).compact();
+  ArchiveStore::open_for_writing(archive, notice_of(progress)).compact();
 }
 
 }  // namespace reprise

@@ -50,7 +50,9 @@ class Ingest {
     if (options_.dry_run) {
       if (std::filesystem::exists(archive_)) store_ = ArchiveStore::open_for_reading(archive_);
     } else {
-      store_ = ArchiveStore::open_for_writing(archive_);
+      store_ = ArchiveStore::open_for_writing(archive_, [&] {
+        return !progress_ || progress_({std::min(done_, total_), total_, {}, true});
+      });
     }
     survey();
     if (!options_.dry_run) {
@@ -72,8 +74,10 @@ class Ingest {
   void tick(const std::string& current) {
     if (!current.empty()) ++done_;
     if (progress_ && !progress_({std::min(done_, total_), total_, current})) {
+      const bool some = !report_.added.empty() || !pending_.empty();
       throw Error(ErrorCode::interrupted,
-                  "stopped; what is stored stays, and running it again goes on");
+                  some ? "stopped; what is stored stays, and running it again goes on"
+                       : "stopped before a take was stored");
     }
   }
 
@@ -118,8 +122,8 @@ class Ingest {
     std::size_t bytes = 0, stored = 0;
     MemoryBudget memory(memory_bytes_);
     const auto commit = [&] {
-      if (stored > 0) store_->commit();
-      bytes = stored = 0;
+      bytes = 0;
+      if (std::exchange(stored, 0) > 0) store_->commit();
       for (std::string& name : pending_) report_.added.push_back(std::move(name));
       pending_.clear();
     };

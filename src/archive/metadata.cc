@@ -3,6 +3,7 @@
 #include <csv.h>
 
 #include <set>
+#include <string_view>
 #include <vector>
 
 #include "reprise/error.h"
@@ -11,34 +12,56 @@
 namespace reprise {
 namespace {
 
+struct CsvRow {
+  std::size_t line = 0;  ///< 1-based, where its first cell ends
+  std::vector<std::string> cells;
+};
+
 struct CsvRows {
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> row;
+  std::vector<CsvRow> rows;
+  CsvRow row;
+  std::size_t line = 0;  ///< that is being parsed
 };
 
 extern "C" void end_of_field(void* field, std::size_t size, void* rows) {
-  static_cast<CsvRows*>(rows)->row.emplace_back(static_cast<const char*>(field), size);
+  auto* all = static_cast<CsvRows*>(rows);
+  if (all->row.cells.empty()) all->row.line = all->line;
+  all->row.cells.emplace_back(static_cast<const char*>(field), size);
 }
 
 extern "C" void end_of_row(int, void* rows) {
   auto* all = static_cast<CsvRows*>(rows);
   all->rows.push_back(std::move(all->row));
-  all->row.clear();
+  all->row = {};
+}
+
+/// Hands the text on line by line, so that each row knows its own. False where it is no CSV.
+bool parse_lines(csv_parser& parser, std::string_view text, CsvRows& rows) {
+  while (!text.empty()) {
+    ++rows.line;
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end == std::string_view::npos ? end : end + 1);
+    text.remove_prefix(line.size());
+    if (csv_parse(&parser, line.data(), line.size(), end_of_field, end_of_row, &rows) !=
+        line.size()) {
+      return false;
+    }
+  }
+  return csv_fini(&parser, end_of_field, end_of_row, &rows) == 0;
 }
 
 CsvRows parse_csv(const std::string& text, const std::string& file) {
   csv_parser parser;
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) throw std::bad_alloc();
   CsvRows rows;
-  const std::size_t parsed =
-      csv_parse(&parser, text.data(), text.size(), end_of_field, end_of_row, &rows);
-  const bool whole =
-      parsed == text.size() && csv_fini(&parser, end_of_field, end_of_row, &rows) == 0;
-  const std::string why = csv_strerror(csv_error(&parser));
+  const bool whole = parse_lines(parser, text, rows);
+  const bool no_memory = csv_error(&parser) == CSV_ENOMEM;
   csv_free(&parser);
+  if (no_memory) throw std::bad_alloc();
   if (!whole) {
-    throw Error(ErrorCode::failed, "the table cannot be read: " + why,
-                {file, rows.rows.size() + 1});
+    throw Error(ErrorCode::failed,
+                "the table cannot be read: up to this line a cell has a quote too many or too few",
+                {file, rows.line}, "a cell with quotes in it stands in quotes, with each doubled");
   }
   return rows;
 }
@@ -70,15 +93,16 @@ std::string cell(const std::vector<std::string>& row, int column) {
 MetadataTable MetadataTable::read(const std::filesystem::path& path) {
   std::string text = read_whole_file(path);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  const CsvRows csv = parse_csv(text, path.string());
-  if (csv.rows.empty() || column_of(csv.rows[0], "take") < 0) {
-    throw Error(ErrorCode::failed, "the table has no column 'take'", {path.string(), 1},
+  const std::string file = path == "/dev/stdin" ? "stdin" : path.string();
+  const CsvRows csv = parse_csv(text, file);
+  if (csv.rows.empty() || column_of(csv.rows[0].cells, "take") < 0) {
+    throw Error(ErrorCode::failed, "the table has no column 'take'", {file, 1},
                 "its first line names the columns: take, subject, description, tags");
   }
-  const auto& header = csv.rows[0];
+  const auto& header = csv.rows[0].cells;
   MetadataTable table;
   for (std::size_t r = 1; r < csv.rows.size(); ++r) {
-    const auto& row = csv.rows[r];
+    const auto& row = csv.rows[r].cells;
     const std::string take = cell(row, column_of(header, "take"));
     TakeMetadata metadata{cell(row, column_of(header, "subject")),
                           cell(row, column_of(header, "description")),
@@ -86,7 +110,7 @@ MetadataTable MetadataTable::read(const std::filesystem::path& path) {
     const auto [known, fresh] = table.rows_.emplace(take, metadata);
     if (!fresh && !(known->second == metadata)) {
       throw Error(ErrorCode::failed, "the table says two things of the take '" + take + "'",
-                  {path.string(), 0});
+                  {file, csv.rows[r].line});
     }
   }
   return table;

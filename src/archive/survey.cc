@@ -58,6 +58,20 @@ void decide(const InputFile& file, TakeOutline outline, const TakeRecord& stored
   }
 }
 
+/// The stored take that a file is about: of its name, or the same file under the name that it had
+/// when another one stood beside it, or when none did (x.bvh beside x.amc).
+std::optional<TakeRecord> stored_take(const InputFile& file, const TakeOutline& outline,
+                                      const ArchiveStore& store) {
+  if (std::optional<TakeRecord> same_name = store.find_take(file.name)) return same_name;
+  const std::string extension = file.path.extension().string();
+  const std::string other = file.name.ends_with(extension)
+                                ? file.name.substr(0, file.name.size() - extension.size())
+                                : file.name + extension;
+  std::optional<TakeRecord> renamed = store.find_take(other);
+  const bool same_source = renamed && renamed->info.source_digest == outline.source_digest;
+  return same_source ? renamed : std::nullopt;
+}
+
 /// Moves takes that cannot be coded on this machine from `fresh` to `rejected`.
 void reject_too_large(std::size_t memory_bytes, Survey& survey) {
   std::vector<FreshTake> fitting;
@@ -85,8 +99,12 @@ void reject_too_large(std::size_t memory_bytes, Survey& survey) {
 RejectedInput rejection(const InputFile& file, const Error& error) {
   std::string why = error.reason();
   if (!error.advice().empty()) why += "; " + error.advice();
-  const bool elsewhere = !error.place().file.empty() && error.place().file != file.path.string();
-  return {elsewhere ? error.place().file : file.path.string(), error.place().line, why};
+  const SourcePlace& place = error.place();
+  if (place.file.empty() || place.file == file.path.string()) {
+    return {file.path.string(), place.line, why};
+  }
+  // An ASF is to blame; what was not taken in is each AMC of it.
+  return {place.file, place.line, fmt::format("{}; {} needs it", why, file.path.string())};
 }
 
 Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& options,
@@ -102,9 +120,12 @@ Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& op
           survey.rejected.push_back(std::move(*surveyed.rejected));
           return;
         }
-        const auto stored = store != nullptr ? store->find_take(files[i].name) : std::nullopt;
+        const auto stored =
+            store != nullptr ? stored_take(files[i], surveyed.outline, *store) : std::nullopt;
         if (stored) {
-          decide(files[i], std::move(surveyed.outline), *stored, options, metadata, survey);
+          InputFile file = files[i];
+          file.name = stored->info.name;
+          decide(file, std::move(surveyed.outline), *stored, options, metadata, survey);
         } else {
           survey.fresh.push_back({files[i], std::move(surveyed.outline), false});
         }

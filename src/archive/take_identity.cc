@@ -19,16 +19,15 @@ SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
                 "reprise extract takes motion out of it");
   }
   // A folder is searched by the same names: verify would not find the source of another.
-  if (!is_motion_file(file.path)) {
+  const std::optional<MotionFormat> format = motion_format_of(file.path);
+  if (!format) {
     throw Error(ErrorCode::rejected_input, "the name ends neither in .bvh nor in .amc", {name},
                 "only BVH and ASF/AMC are read");
   }
   Hasher hasher;
   hasher.add(text);
   Take take;
-  std::string extension = file.path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c | 0x20);
-  if (extension == ".amc") {
+  if (format == MotionFormat::asf_amc) {
     const std::filesystem::path asf = options.asf ? *options.asf : find_asf(file.path);
     const std::string asf_text = read_whole_file(asf);
     hasher.add(asf_text);

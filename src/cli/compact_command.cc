@@ -13,7 +13,10 @@ void CompactCommand::setup(CLI::App& app) {
 
 ExitCode CompactCommand::run(Console& console) {
   const std::uint64_t before = Archive(archive_).stats().archive_bytes;
-  compact(archive_);
+  {
+    ProgressBar bar("compact", console.progress_terminal());
+    compact(archive_, progress_sink(bar, console));
+  }
   const std::uint64_t after = Archive(archive_).stats().archive_bytes;
   if (!console.quiet()) {
     console.result(fmt::format("{} before, {} now\n", format_size(before), format_size(after)));

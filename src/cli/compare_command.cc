@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "cli/json_output.h"
 #include "cli/motion_input.h"
@@ -14,22 +14,37 @@ namespace fs = std::filesystem;
 namespace reprise::cli {
 namespace {
 
-bool is_amc(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return extension == ".amc";
-}
-
 /// The take on stdin, in the format of the other file and, if that is AMC, with its skeleton.
 Take read_motion_beside(const fs::path& other, const ReadOptions& options) {
-  if (!is_amc(other)) return read_motion_from_stdin(std::nullopt, options);
+  if (motion_format_of(other) != MotionFormat::asf_amc)
+    return read_motion_from_stdin(std::nullopt, options);
   return read_motion_from_stdin(options.asf ? *options.asf : find_asf(other), options);
 }
 
 Take read_side(const fs::path& path, const fs::path& other, const ReadOptions& options) {
   return path == "-" ? read_motion_beside(other, options) : read_motion_file(path, options);
+}
+
+/// Frame rates that differ by less are one rate in other decimals.
+constexpr double rate_tolerance = 1e-3;
+
+/// What is measured all the same, though it may not have been meant.
+void warn_of_differences(const Take& original, const Take& decoded, const Console& console) {
+  const double rate = original.frame_rate;
+  if (std::abs(decoded.frame_rate - rate) > rate_tolerance * rate) {
+    console.message(
+        fmt::format("the frame rates differ, {:.6g} and {:.6g} Hz; frames are compared one by one",
+                    rate, decoded.frame_rate));
+  }
+  for (std::size_t j = 0; j < original.skeleton->joints.size(); ++j) {
+    const std::string& name = original.skeleton->joints[j].name;
+    const std::string& other = decoded.skeleton->joints[j].name;
+    if (name == other) continue;
+    console.message(printable(fmt::format(
+        "the names of joints differ, such as '{}' and '{}'; joints are compared in their order",
+        name, other)));
+    return;
+  }
 }
 
 std::string comparison_text(const Comparison& comparison) {
@@ -69,6 +84,7 @@ ExitCode CompareCommand::run(Console& console) {
   const Take original = read_side(original_, decoded_, read_);
   const Take decoded = read_side(decoded_, original_, read_);
   const Comparison comparison = compare_takes(original, decoded);
+  warn_of_differences(original, decoded, console);
   console.result(comparison_text(comparison));
   console.document(to_json(comparison));
   return exit_done;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "cli/interruption.h"
 #include "reprise/error.h"
@@ -85,9 +86,14 @@ std::string text_of(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-ProgressSink progress_sink(ProgressBar& bar) {
-  return [&bar](const Progress& progress) {
-    bar.show(progress);
+ProgressSink progress_sink(ProgressBar& bar, const Console& console) {
+  return [&bar, &console, told = false](const Progress& progress) mutable {
+    if (!progress.waiting) {
+      bar.show(progress);
+    } else if (!std::exchange(told, true)) {
+      bar.hide();
+      console.message("waiting until no other process reads the archive");
+    }
     return !InterruptionGuard::requested();
   };
 }

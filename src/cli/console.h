@@ -62,7 +62,8 @@ class Console {
 /// A document as --json prints it.
 std::string text_of(const Json& document);
 
-/// A sink that draws the progress and asks to stop once a signal has come.
-ProgressSink progress_sink(ProgressBar& bar);
+/// A sink that draws the progress, says once that it waits for other processes, and asks to stop
+/// once a signal has come.
+ProgressSink progress_sink(ProgressBar& bar, const Console& console);
 
 }  // namespace reprise::cli

@@ -152,7 +152,7 @@ ExitCode IngestCommand::run(Console& console) {
   IngestReport report;
   {
     ProgressBar bar("ingest", console.progress_terminal());
-    report = ingest(archive_, options_, progress_sink(bar));
+    report = ingest(archive_, options_, progress_sink(bar, console));
   }
   for (const std::string& name : report.added) console.detail("added " + printable(name));
   for (const std::string& name : report.skipped) console.detail("skipped " + printable(name));
@@ -169,12 +169,17 @@ ExitCode IngestCommand::run(Console& console) {
                     format_count(report.other_metadata.size(), "take")));
   }
   if (!report.takes_not_found.empty()) {
-    console.message(printable(fmt::format(
-        "{}: {} of no take that was given, such as '{}'", metadata_.string(),
-        format_count(report.takes_not_found.size(), "row"), report.takes_not_found.front())));
+    console.message(printable(fmt::format("{}: {} of no take that was given, such as '{}'",
+                                          metadata_ == stdin_path ? "stdin" : metadata_.string(),
+                                          format_count(report.takes_not_found.size(), "row"),
+                                          report.takes_not_found.front())));
   }
   if (report.added.size() + report.skipped.size() + report.rejected.size() == 0) {
     console.message("no BVH or AMC file was found; links to folders are not followed");
+  }
+  if (!options_.dry_run && report.rejected.empty() && !fs::exists(archive_)) {
+    throw Error(ErrorCode::failed, "no archive was made, as there is nothing to store",
+                {archive_.string()});
   }
   const ArchiveStats stats = stats_of(archive_);
   if (!console.quiet()) console.result(summary(report, stats, options_.dry_run));

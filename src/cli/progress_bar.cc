@@ -40,10 +40,13 @@ std::string progress_line(std::string_view what, const Progress& progress, doubl
 ProgressBar::ProgressBar(std::string what, std::FILE* terminal)
     : what_(std::move(what)), terminal_(terminal) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { hide(); }
+
+void ProgressBar::hide() {
   if (!visible_) return;
   std::fputs("\r\033[K", terminal_);
   std::fflush(terminal_);
+  visible_ = false;
 }
 
 void ProgressBar::show(const Progress& progress) {

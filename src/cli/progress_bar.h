@@ -25,6 +25,8 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
+  /// Clears the line until it is shown again.
+  void hide();
 
  private:
   using Clock = std::chrono::steady_clock;

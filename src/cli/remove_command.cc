@@ -35,7 +35,10 @@ ExitCode RemoveCommand::run(Console& console) {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }
-  remove_takes(archive_, names);
+  {
+    ProgressBar bar("remove", console.progress_terminal());
+    remove_takes(archive_, names, progress_sink(bar, console));
+  }
   for (const std::string& name : names) console.detail("removed " + printable(name));
   if (!console.quiet()) console.result("removed " + format_count(names.size(), "take") + "\n");
   console.document({{"removed", names}});

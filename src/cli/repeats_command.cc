@@ -98,7 +98,7 @@ ExitCode RepeatsCommand::run(Console& console) {
   std::vector<RecurringMotion> groups;
   {
     ProgressBar bar("repeats", console.progress_terminal());
-    groups = archive.repeats(query, progress_sink(bar));
+    groups = archive.repeats(query, progress_sink(bar, console));
   }
   if (groups.empty()) {
     console.message("no motion recurs");

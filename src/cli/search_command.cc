@@ -1,5 +1,7 @@
 #include "cli/search_command.h"
 
+#include <fmt/format.h>
+
 #include "cli/interruption.h"
 #include "cli/intervals.h"
 #include "cli/motion_input.h"
@@ -32,6 +34,14 @@ std::string results_table(const std::vector<SearchResult>& results, bool bold) {
                format_number(result.end, 2), format_number(result.distance_mm, 1)});
   }
   return table.text(bold);
+}
+
+std::string nothing_found(const SearchOptions& options) {
+  if (options.limit_mm) {
+    return fmt::format("no take is within {:g} mm of the example", *options.limit_mm);
+  }
+  return "no take is like the example, or none has a body that could be compared with it; reprise "
+         "info shows which joints were taken for a body's, --joint-map corrects it";
 }
 
 Json document_of(const std::vector<SearchResult>& results) {
@@ -87,6 +97,9 @@ void SearchCommand::check() {
   if (options_.from && options_.to && *options_.from >= *options_.to) {
     throw Error(ErrorCode::usage, "--from must be before --to");
   }
+  if (!id_.empty() && (read_.asf || read_.bvh_millimetres_per_unit || read_.amc_frame_rate)) {
+    throw Error(ErrorCode::usage, "--asf, --unit-mm and --fps are for an example from a FILE");
+  }
   if (options_.across_subjects && id_.empty()) {
     throw Error(ErrorCode::usage, "--across-subjects needs --id: a file has no subject");
   }
@@ -113,17 +126,13 @@ ExitCode SearchCommand::run(Console& console) {
   {
     const InterruptionGuard guard;  // a cache that is being written is finished
     ProgressBar bar("search", console.progress_terminal());
-    search.emplace(archive_, setup_, progress_sink(bar));
+    search.emplace(archive_, setup_, progress_sink(bar, console));
     InterruptionGuard::check();
   }
   if (!search->cache_problem().empty()) console.message(printable(search->cache_problem()));
   const std::vector<SearchResult> results =
       selection ? search->like(selection->take, options_) : search->like(*example, options_);
-  if (results.empty()) {
-    console.message(
-        "no take is like the example, or none has a body that could be compared with it; reprise "
-        "info shows which joints were taken for a body's, --joint-map corrects it");
-  }
+  if (results.empty()) console.message(nothing_found(options_));
   console.result(results_table(results, console.bold_results()));
   console.document(document_of(results));
   return exit_done;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "cli/json_output.h"
@@ -44,7 +45,7 @@ ExitCode SynthCommand::run(Console& console) {
   console.document({{"folder", folder_.string()},
                     {"files", files},
                     {"takes", options_.takes},
-                    {"subjects", options_.subjects},
+                    {"subjects", std::min(options_.subjects, options_.takes)},  // one take each
                     {"seconds", options_.seconds},
                     {"seed", options_.seed},
                     {"format", format_name(options_.format)}});

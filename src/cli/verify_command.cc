@@ -21,7 +21,7 @@ Json document_of(const VerifyReport& report) {
           {"takes", report.takes},
           {"clips", report.clips},
           {"damaged", damaged},
-          {"error_mm", to_json(report.error_mm)}};
+          {"error_mm", report.measured > 0 ? to_json(report.error_mm) : Json(nullptr)}};
 }
 
 std::string report_text(const VerifyReport& report, bool measured) {
@@ -79,16 +79,17 @@ ExitCode VerifyCommand::run(Console& console) {
   VerifyReport report;
   {
     ProgressBar bar("verify", console.progress_terminal());
-    report = report_of(archive_, against, read_, progress_sink(bar));
+    report = report_of(archive_, against, read_, progress_sink(bar, console));
   }
   console.result(report_text(report, against.has_value()));
   console.document(document_of(report));
   if (report.ok) return exit_done;
   const ErrorCode code = verdict(report);
-  console.complaint(
-      code == ErrorCode::damaged
-          ? "reprise: the archive is damaged"
-          : "reprise: some takes are outside their fidelity, or could not be measured");
+  console.complaint(printable(
+      fmt::format("reprise: {}: {}", archive_.string(),
+                  code == ErrorCode::damaged
+                      ? "the archive is damaged"
+                      : "some takes are outside their fidelity, or could not be measured")));
   return static_cast<int>(code);
 }
 

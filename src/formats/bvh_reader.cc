@@ -40,17 +40,20 @@ std::string_view next_filled_line(TextLines& lines, const char* what) {
 
 long read_frame_count(TextLines& lines) {
   const auto rest = after_keyword(next_filled_line(lines, "'Frames:'"), "Frames");
-  const auto count = rest ? to_count(*rest) : std::nullopt;
-  if (!count) lines.reject("after MOTION comes 'Frames:' with a count");
+  if (!rest) lines.reject("after MOTION comes 'Frames:' with a count");
+  const auto count = to_count(*rest);
+  if (!count) lines.reject("'Frames:' is followed by " + in_quotes(*rest) + ", which is no count");
   return *count;
 }
 
 void read_frame_time(TextLines& lines, Take& take) {
   auto rest = after_keyword(next_filled_line(lines, "'Frame Time:'"), "Frame");
   if (rest) rest = after_keyword(*rest, "Time");
-  const auto seconds = rest ? to_number(*rest) : std::nullopt;
-  if (!seconds || *seconds < 0)
-    lines.reject("after 'Frames:' comes 'Frame Time:' with the seconds of a frame");
+  if (!rest) lines.reject("after 'Frames:' comes 'Frame Time:' with the seconds of a frame");
+  const auto seconds = to_number(*rest);
+  if (!seconds || *seconds < 0) {
+    lines.reject("'Frame Time:' is followed by " + in_quotes(*rest) + ", which is no time");
+  }
   take.layout.frame_time_text = std::string(*rest);
   take.frame_rate_assumed = *seconds == 0;
   take.frame_rate = take.frame_rate_assumed ? assumed_frame_rate : 1.0 / *seconds;

@@ -25,9 +25,13 @@ bool has_extension(const fs::path& path, std::string_view extension) {
 
 }  // namespace
 
-bool is_motion_file(const fs::path& path) {
-  return has_extension(path, ".bvh") || has_extension(path, ".amc");
+std::optional<MotionFormat> motion_format_of(const fs::path& path) {
+  if (has_extension(path, ".bvh")) return MotionFormat::bvh;
+  if (has_extension(path, ".amc")) return MotionFormat::asf_amc;
+  return std::nullopt;
 }
+
+bool is_motion_file(const fs::path& path) { return motion_format_of(path).has_value(); }
 
 bool is_skeleton_file(const fs::path& path) { return has_extension(path, ".asf"); }
 
@@ -72,14 +76,15 @@ std::string read_whole_file(const fs::path& path) {
 }
 
 Take read_motion_file(const fs::path& path, const ReadOptions& options) {
-  if (!is_motion_file(path)) {
+  const std::optional<MotionFormat> format = motion_format_of(path);
+  if (!format) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) reject(path, "there is no such file");
     if (fs::is_directory(path, ignored)) reject(path, "this is a folder, not a file");
     reject(path, "the name ends neither in .bvh nor in .amc", "only BVH and ASF/AMC are read");
   }
   const std::string text = read_whole_file(path);
-  if (has_extension(path, ".bvh")) {
+  if (format == MotionFormat::bvh) {
     return read_bvh(text, path.string(),
                     options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit));
   }

@@ -47,6 +47,27 @@ double d_percent(const PositionMatrix& original, const PositionMatrix& decoded, 
   return moved > rounding * a.norm() ? 100.0 * (a - decoded.topRows(frames)).norm() / moved : 0.0;
 }
 
+/// Throws Error (failed) where joints or frames have no counterparts.
+void require_comparable(const Take& original, const Take& decoded) {
+  const auto& joints = original.skeleton->joints;
+  const auto& others = decoded.skeleton->joints;
+  if (joints.size() != others.size()) {
+    throw Error(ErrorCode::failed,
+                "the two motions have different skeletons: " + std::to_string(joints.size()) +
+                    " and " + std::to_string(others.size()) + " joints");
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].parent == others[j].parent) continue;
+    throw Error(ErrorCode::failed, "the two motions have different skeletons: '" + joints[j].name +
+                                       "' and '" + others[j].name + "' hang at different joints");
+  }
+  if (original.frames() == 0 || decoded.frames() == 0) {
+    throw Error(ErrorCode::failed, std::string("the ") +
+                                       (original.frames() == 0 ? "original" : "decoded") +
+                                       " motion has no frames");
+  }
+}
+
 }  // namespace
 
 bool is_foot_joint(const Joint& joint) { return names_foot(joint.name); }
@@ -121,11 +142,7 @@ std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatr
 }
 
 Comparison compare_takes(const Take& original, const Take& decoded) {
-  if (original.skeleton->joints.size() != decoded.skeleton->joints.size()) {
-    throw Error(ErrorCode::failed, "the two motions have different skeletons: " +
-                                       std::to_string(original.skeleton->joints.size()) + " and " +
-                                       std::to_string(decoded.skeleton->joints.size()) + " joints");
-  }
+  require_comparable(original, decoded);
   const PositionMatrix a = joint_positions(*original.skeleton, original.channels);
   const PositionMatrix b = joint_positions(*decoded.skeleton, decoded.channels);
   Comparison result;

@@ -87,6 +87,39 @@ std::vector<std::string> names_meant(const ArchiveStore& store, const std::strin
   return names.empty() ? names_shown_as(store, id) : names;
 }
 
+/// Names that end in this, wherever it begins: what a short ID may still mean.
+std::vector<std::string> names_ending_in(const ArchiveStore& store, const std::string& id) {
+  std::vector<std::string> names, without_extension;
+  for (const TakeInfo& take : store.takes({})) {
+    if (take.name.ends_with(id)) names.push_back(take.name);
+    for (const char* extension : {".amc", ".bvh"}) {
+      if (take.name.ends_with(id + extension)) without_extension.push_back(take.name);
+    }
+  }
+  return names.empty() ? without_extension : names;
+}
+
+std::optional<TakeInfo> only_take(const ArchiveStore& store, const std::string& id,
+                                  const std::vector<std::string>& names) {
+  if (names.size() > 1) throw_ambiguous(id, names);
+  if (names.empty()) return std::nullopt;
+  const auto found = store.find_take(names[0]);
+  if (!found) throw Error(ErrorCode::damaged, "the archive is damaged: its index of names");
+  return found->info;
+}
+
+/// A take by its name, or by its last components.
+std::optional<TakeInfo> take_of_name(const ArchiveStore& store, const std::string& id) {
+  if (const auto exact = store.find_take(id)) return exact->info;
+  return only_take(store, id, names_meant(store, id));
+}
+
+/// Greatest of what keeps least.
+double coarseness(const Fidelity& fidelity) {
+  const bool mean_only = fidelity.tier == FidelityTier::preview;
+  return fidelity.limit_mm + (mean_only ? FidelityLimits::greatest_bound_mm : 0);
+}
+
 }  // namespace
 
 Archive::Archive(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
@@ -142,13 +175,10 @@ ArchiveInfo Archive::info() const {
 
 TakeInfo Archive::find_take(const std::string& id) const {
   const auto snapshot = impl_->snapshot();
-  if (const auto exact = impl_->store.find_take(id)) return exact->info;
-  const std::vector<std::string> names = names_meant(impl_->store, id);
-  if (names.size() > 1) throw_ambiguous(id, names);
-  if (names.empty()) throw_unknown("take", id);
-  const auto found = impl_->store.find_take(names[0]);
-  if (!found) throw Error(ErrorCode::damaged, "the archive is damaged: its index of names");
-  return found->info;
+  std::optional<TakeInfo> take = take_of_name(impl_->store, id);
+  if (!take) take = only_take(impl_->store, id, names_ending_in(impl_->store, id));
+  if (!take) throw_unknown("take", id);
+  return *take;
 }
 
 std::vector<ClipInfo> Archive::find_clips(const std::string& id) const {
@@ -172,17 +202,20 @@ std::vector<ClipInfo> Archive::find_clips(const std::string& id) const {
 
 Archive::Selection Archive::find(const std::string& id) const {
   const auto snapshot = impl_->snapshot();
-  try {
-    TakeInfo take = find_take(id);
-    const long frames = take.frames;
-    return {std::move(take), {0, frames}, std::nullopt};
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::not_found || !may_be_clip_id(id)) throw;
-    const std::vector<ClipInfo> clips = find_clips(id);
-    if (clips.empty()) throw_unknown("take or clip", id);
-    const ClipInfo& clip = clips[0];
-    return {find_take(clip.take), {clip.first_frame, clip.first_frame + clip.frames}, clip};
+  std::optional<TakeInfo> take = take_of_name(impl_->store, id);
+  std::optional<ClipInfo> clip;
+  if (!take) {
+    for (const ClipInfo& candidate : find_clips(id)) {
+      TakeInfo of_candidate = find_take(candidate.take);
+      if (take && coarseness(of_candidate.fidelity) >= coarseness(take->fidelity)) continue;
+      take = std::move(of_candidate);
+      clip = candidate;
+    }
   }
+  if (clip) return {*take, {clip->first_frame, clip->first_frame + clip->frames}, clip};
+  if (!take) take = only_take(impl_->store, id, names_ending_in(impl_->store, id));
+  if (!take) throw_unknown(may_be_clip_id(id) ? "take or clip" : "take", id);
+  return {*take, {0, take->frames}, std::nullopt};
 }
 
 Take Archive::extract(const TakeInfo& info, std::optional<FidelityTier> tier) const {

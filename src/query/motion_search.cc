@@ -125,7 +125,8 @@ void choose_part(Example& example, double seconds, const SearchOptions& options)
   example.whole = !options.from && !options.to;
   const Stretch whole = whole_of(*example.track);
   example.stretch = {std::min(from, whole.end), std::min(to, whole.end)};
-  if (!example.whole && !(example.stretch.seconds() > 0)) {
+  constexpr double least_seconds = 2 / PostureConstants::rate;  // three postures, as in repeats
+  if (!example.whole && example.stretch.seconds() < least_seconds) {
     throw Error(ErrorCode::usage, "the part is too short to look for its motion");
   }
 }

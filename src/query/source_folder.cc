@@ -30,7 +30,7 @@ std::string hindrance(const fs::directory_entry& entry) {
 }  // namespace
 
 SourceFolder::SourceFolder(const fs::path& folder, const std::function<void()>& pulse) {
-  std::map<std::string, std::vector<fs::path>> by_end;
+  std::map<Key, std::vector<fs::path>> by_end;
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     throw Error(ErrorCode::failed,
@@ -45,12 +45,15 @@ SourceFolder::SourceFolder(const fs::path& folder, const std::function<void()>& 
     const std::string why = hindrance(*entry);
     if (!why.empty()) unread_.push_back({entry->path().string(), why, true});
     std::error_code ignored;
-    if (!entry->is_regular_file(ignored) || !is_motion_file(entry->path())) continue;
+    const std::optional<MotionFormat> format = motion_format_of(entry->path());
+    if (!entry->is_regular_file(ignored) || !format) continue;
     fs::path relative = entry->path().lexically_relative(folder);
     for (const std::string& name :
          {relative.generic_string(), relative.replace_extension().generic_string()}) {
-      sources_.emplace(name, entry->path());
-      for_each_end(name, [&](const std::string& end) { by_end[end].push_back(entry->path()); });
+      sources_.emplace(Key(*format, name), entry->path());
+      for_each_end(name, [&](const std::string& end) {
+        by_end[{*format, end}].push_back(entry->path());
+      });
     }
   }
   if (error) {
@@ -62,11 +65,11 @@ SourceFolder::SourceFolder(const fs::path& folder, const std::function<void()>& 
   }
 }
 
-const fs::path* SourceFolder::source_of(const std::string& take) const {
+const fs::path* SourceFolder::source_of(const TakeInfo& take) const {
   const fs::path* source = nullptr;
   // A prefix of the ingest stands before the name under the folder.
-  for_each_end(take, [&](const std::string& end) {
-    const auto found = sources_.find(end);
+  for_each_end(take.name, [&](const std::string& end) {
+    const auto found = sources_.find({take.format, end});
     if (source == nullptr && found != sources_.end()) source = &found->second;
   });
   return source;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reprise/archive.h"
@@ -19,13 +20,14 @@ class SourceFolder {
   /// folder itself cannot be read.
   SourceFolder(const std::filesystem::path& folder, const std::function<void()>& pulse);
 
-  /// Null where there is none.
-  const std::filesystem::path* source_of(const std::string& take) const;
+  /// Null where there is none of the take's format.
+  const std::filesystem::path* source_of(const TakeInfo& take) const;
   /// Folders below that could not be read, and why.
   const std::vector<Damage>& unread() const { return unread_; }
 
  private:
-  std::map<std::string, std::filesystem::path> sources_;
+  using Key = std::pair<MotionFormat, std::string>;
+  std::map<Key, std::filesystem::path> sources_;
   std::vector<Damage> unread_;
 };
 

@@ -134,7 +134,7 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       std::optional<TakeRecord> record =
           changed ? impl_->store.find_take(all[i].name) : impl_->store.take(all[i].id);
       if (!record) continue;
-      const fs::path* source = sources ? sources->source_of(all[i].name) : nullptr;
+      const fs::path* source = sources ? sources->source_of(all[i]) : nullptr;
       TakeCheck check(*impl_, std::move(*record));
       for (Damage& damage : check.run(source, read)) report.damaged.push_back(std::move(damage));
       if (against && source == nullptr) {

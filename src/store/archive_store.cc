@@ -10,6 +10,16 @@ namespace reprise {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void refuse_folder(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return;
+  throw Error(ErrorCode::damaged, "this is a folder, not an archive", {path.string()});
+}
+
+}  // namespace
+
 ArchiveStore::ArchiveStore(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ArchiveStore::~ArchiveStore() = default;
 ArchiveStore::ArchiveStore(ArchiveStore&&) noexcept = default;
@@ -17,13 +27,9 @@ ArchiveStore& ArchiveStore::operator=(ArchiveStore&&) noexcept = default;
 
 ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
   std::error_code error;
+  refuse_folder(path);
   const auto size = fs::file_size(path, error);
-  if (error) {
-    throw Error(
-        ErrorCode::failed,
-        fs::is_directory(path) ? "this is a folder, not an archive" : "there is no such archive",
-        {path.string()});
-  }
+  if (error) throw Error(ErrorCode::failed, "there is no such archive", {path.string()});
   if (size == 0) {
     throw Error(ErrorCode::damaged, "the archive is an empty file", {path.string()});
   }
@@ -45,12 +51,14 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
   return ArchiveStore(std::move(impl));
 }
 
-ArchiveStore ArchiveStore::open_for_writing(const fs::path& path) {
+ArchiveStore ArchiveStore::open_for_writing(const fs::path& path, WaitNotice waiting) {
+  refuse_folder(path);
   const bool created = create_if_missing(path);
   auto impl = std::make_unique<Impl>();
   impl->lock.emplace(path, created);
   impl->database.emplace(path, Database::Mode::write);
   impl->writing = true;
+  impl->waiting = std::move(waiting);
   check_header(*impl->database);
   // Pages are not written before a commit, which alone waits for readers.
   impl->database->run(
@@ -76,9 +84,7 @@ void ArchiveStore::commit() {
   try {
     impl_->flush();
     impl_->remove_vacated();
-    impl_->database->wait_for_locks(LockWaits::commit_ms);
-    impl_->database->run("COMMIT");
-    impl_->database->wait_for_locks(LockWaits::writer_ms);
+    impl_->database->run_alone("COMMIT", impl_->waiting);
   } catch (...) {
     impl_->broken = true;
     roll_back();
@@ -99,9 +105,9 @@ void ArchiveStore::roll_back() {
 }
 
 void ArchiveStore::compact() {
-  impl_->database->wait_for_locks(LockWaits::commit_ms);
-  impl_->database->run("VACUUM");
-  impl_->database->wait_for_locks(LockWaits::writer_ms);
+  // Readers end soon; another program that writes may not.
+  impl_->database->run("BEGIN IMMEDIATE; ROLLBACK");
+  impl_->database->run_alone("VACUUM", impl_->waiting);
 }
 
 ArchiveStore::Snapshot ArchiveStore::snapshot() const {

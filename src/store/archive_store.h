@@ -113,18 +113,22 @@ struct ClipRecord {
 
 constexpr std::size_t most_layers = 8;
 
+/// Called every second while a change is kept waiting by processes that read the archive. False
+/// gives up: Error (interrupted).
+using WaitNotice = std::function<bool()>;
+
 struct StoredClip;
 
 class ArchiveStore {
  public:
   struct Impl;
 
-  /// Throws Error: failed (cannot be opened), damaged, newer_version. Never writes, but for rolling
-  /// back a transaction that a dead writer left.
+  /// Throws Error: failed (cannot be opened), damaged (or a folder), newer_version. Never writes,
+  /// but for rolling back a transaction that a dead writer left.
   static ArchiveStore open_for_reading(const std::filesystem::path& path);
   /// Where there is no file, one without takes is put there whole; it is taken away again if
   /// nothing was committed. Throws Error (locked) at once if another process holds it for writing.
-  static ArchiveStore open_for_writing(const std::filesystem::path& path);
+  static ArchiveStore open_for_writing(const std::filesystem::path& path, WaitNotice waiting = {});
   ~ArchiveStore();
   ArchiveStore(ArchiveStore&&) noexcept;
   ArchiveStore& operator=(ArchiveStore&&) noexcept;

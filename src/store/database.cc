@@ -92,6 +92,25 @@ void Database::run(const std::string& sql) {
   if (result != SQLITE_OK) fail(result);
 }
 
+void Database::run_alone(const std::string& sql, const std::function<bool()>& waiting) {
+  const auto attempt = [&](int milliseconds) {
+    wait_for_locks(milliseconds);
+    const int result = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+    wait_for_locks(LockWaits::writer_ms);
+    return result;
+  };
+  int result = attempt(LockWaits::told_ms);
+  for (int waited = LockWaits::told_ms;
+       code_of(result) == ErrorCode::locked && waited < LockWaits::commit_ms;
+       waited += LockWaits::told_ms) {
+    if (waiting && !waiting()) {
+      throw Error(ErrorCode::interrupted, "stopped while other processes read the archive");
+    }
+    result = attempt(LockWaits::told_ms);
+  }
+  if (result != SQLITE_OK) fail(result);
+}
+
 int Database::read_file(std::span<std::byte> to, std::int64_t offset) const {
   sqlite3_file* file = nullptr;
   sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_FILE_POINTER, &file);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,9 +18,10 @@
 namespace reprise {
 
 /// How long is waited for other processes (ms): a reader for a commit; a writer, which our own
-/// writers have let in before, for whoever else has locked the file; and a commit for readers.
+/// writers have let in before, for whoever else has locked the file; and a commit for readers, of
+/// which the user is told after a while.
 struct LockWaits {
-  static constexpr int reader_ms = 60000, writer_ms = 2000, commit_ms = 60000;
+  static constexpr int reader_ms = 60000, writer_ms = 2000, commit_ms = 60000, told_ms = 1000;
 };
 
 class Database {
@@ -28,6 +30,10 @@ class Database {
   Database(const std::filesystem::path& path, Mode mode);
 
   void wait_for_locks(int milliseconds);
+  /// Runs a statement that needs the file for itself: waits until nobody reads it, and calls
+  /// `waiting` where that takes longer. Throws Error: locked, or interrupted where `waiting` says
+  /// false.
+  void run_alone(const std::string& sql, const std::function<bool()>& waiting);
   /// Runs statements that return nothing of interest.
   void run(const std::string& sql);
   std::int64_t last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }

@@ -22,6 +22,7 @@ struct ArchiveStore::Impl {
   std::optional<WriterLock> lock;  // let go last
   std::optional<Database> database;
   bool writing = false;
+  WaitNotice waiting;
   bool in_transaction = false;
   int snapshots = 0;    ///< that live, one within another
   bool broken = false;  ///< a commit failed: nothing more is written

@@ -10,7 +10,7 @@ namespace {
 TEST_F(ArchiveTest, EveryTakeIsWithinItsMean) {
   synthesise("takes", 6, 3);
   for (const double mean : {0.5, 5.0, 20.0, 200.0}) {
-    const std::string archive = "a" + std::to_string(mean);
+    const std::string archive = std::string("a").append(std::to_string(mean));
     EXPECT_EQ(add(archive, {"takes"}, mean).added.size(), 6u);
     expect_all_within(archive, "takes", mean);
   }
@@ -20,7 +20,7 @@ TEST_F(ArchiveTest, EveryTakeIsWithinItsMean) {
 TEST_F(ArchiveTest, TakesAreAsCoarseAsTheyMayBe) {
   synthesise("takes", 6, 3);
   for (const double mean : {5.0, 20.0}) {
-    const std::string archive = "a" + std::to_string(mean);
+    const std::string archive = std::string("a").append(std::to_string(mean));
     add(archive, {"takes"}, mean);
     for (const TakeInfo& info : Archive(folder_ / archive).takes())
       EXPECT_GE(info.error_mm.mean, 0.85 * mean) << info.name;

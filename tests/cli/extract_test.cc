@@ -125,6 +125,25 @@ TEST_F(ExtractTest, LinkInTheFolderIsNotFollowed) {
   EXPECT_TRUE(fs::is_empty(folder() / "elsewhere"));
 }
 
+TEST_F(ExtractTest, ComparisonSaysWhatDiffers) {
+  const auto bvh = [](const std::string& joint, const std::string& time) {
+    return "HIERARCHY\nROOT " + joint +
+           "\n{\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\nMOTION\nFrames: 1\nFrame Time: " + time +
+           "\n1\n";
+  };
+  write_file(folder() / "a.bvh", bvh("hips", "0.0083333"));
+  write_file(folder() / "names.bvh", bvh("pelvis", "0.00833"));
+  write_file(folder() / "rate.bvh", bvh("hips", "0.01"));
+  EXPECT_EQ(reprise({"compare", "a.bvh", "a.bvh"}).err, "");
+  const Outcome names = reprise({"compare", "a.bvh", "names.bvh"});
+  EXPECT_EQ(names.exit_code, 0);
+  EXPECT_NE(names.err.find("'hips' and 'pelvis'"), std::string::npos) << names.err;
+  EXPECT_EQ(lines_of(names.err).size(), 1U) << "one rate in other decimals is one";
+  const Outcome rate = reprise({"compare", "a.bvh", "rate.bvh"});
+  EXPECT_EQ(rate.exit_code, 0);
+  EXPECT_NE(rate.err.find("and 100 Hz"), std::string::npos) << rate.err;
+}
+
 TEST_F(ExtractTest, ComparisonReadsStdin) {
   make_library();
   const std::string name = take_names().front();

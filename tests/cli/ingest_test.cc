@@ -164,9 +164,25 @@ TEST_F(IngestTest, ATableThatSaysTwoThingsOfATakeIsRefused) {
              "take,subject\n" + name + ",Anna\n" + name + ",Anna\n" + name + ",Bob\n");
   const Outcome outcome = reprise({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.err.find("two things of the take '" + name + "'"), std::string::npos)
+  EXPECT_NE(outcome.err.find("takes.csv:4: the table says two things of the take '" + name + "'"),
+            std::string::npos)
       << outcome.err;
   EXPECT_FALSE(fs::exists(folder() / "told.rpz"));
+}
+
+TEST_F(IngestTest, ATableThatIsNoneIsNamedWithItsLine) {
+  make_library();
+  write_file(folder() / "quote.csv", "take,subject\n\na,\"two\nlines\"\nb,An\"na\n");
+  const Outcome quote = reprise({"ingest", "told.rpz", "takes", "--metadata", "quote.csv"});
+  EXPECT_EQ(quote.exit_code, 1);
+  EXPECT_NE(quote.err.find("quote.csv:5: "), std::string::npos) << quote.err;
+  Surroundings piped;
+  piped.input = folder() / "quote.csv";
+  const Outcome from_stdin = reprise({"ingest", "told.rpz", "takes", "--metadata", "-"}, piped);
+  EXPECT_NE(from_stdin.err.find("stdin:5: "), std::string::npos) << from_stdin.err;
+  write_file(folder() / "lines.csv", "take,subject\n\na,\"two\nlines\"\nb,Anna\nb,Bob\n");
+  const Outcome twice = reprise({"ingest", "told.rpz", "takes", "--metadata", "lines.csv"});
+  EXPECT_NE(twice.err.find("lines.csv:6: "), std::string::npos) << twice.err;
 }
 
 TEST_F(IngestTest, RowsOfNoTakeAreTold) {

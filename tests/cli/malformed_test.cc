@@ -59,5 +59,32 @@ TEST_F(MalformedTest, OneLineOnStderrForEach) {
   }
 }
 
+TEST_F(MalformedTest, EachAmcOfABadSkeletonIsNamed) {
+  output({"synth", "amc", "--takes", "2", "--seconds", "1", "--subjects", "1", "--format", "amc"});
+  write_file(folder() / "amc/s01/s01.asf", ":version 1.10\n:root\norder TX\naxis nonsense\n");
+  const auto rejected = document({"ingest", "lib.rpz", "amc"}, 3).at("rejected");
+  ASSERT_EQ(rejected.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(rejected[i].at("path"), "amc/s01/s01.asf");
+    EXPECT_GT(rejected[i].at("line").get<long>(), 0);
+    const std::string take = "s01_0" + std::to_string(i + 1) + ".amc";
+    EXPECT_NE(rejected[i].at("why").get<std::string>().find(take), std::string::npos) << rejected;
+  }
+}
+
+TEST_F(MalformedTest, CountsAndTimesThatAreNoneAreQuoted) {
+  const auto why_of = [&](const std::string& frames, const std::string& time) {
+    write_file(folder() / "in/a.bvh",
+               "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\nMOTION\nFrames: " +
+                   frames + "\nFrame Time: " + time + "\n1\n");
+    return reprise({"ingest", "lib.rpz", "in"}).err;
+  };
+  fs::create_directory(folder() / "in");
+  EXPECT_EQ(why_of("-5", "0.01").rfind("in/a.bvh:8: 'Frames:' is followed by '-5'", 0), 0U)
+      << why_of("-5", "0.01");
+  EXPECT_EQ(why_of("1", "-1").rfind("in/a.bvh:9: 'Frame Time:' is followed by '-1'", 0), 0U)
+      << why_of("1", "-1");
+}
+
 }  // namespace
 }  // namespace reprise::cli

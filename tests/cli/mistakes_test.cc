@@ -167,6 +167,24 @@ TEST_F(MistakesTest, WhatAnIngestLeavesOutIsTold) {
   EXPECT_EQ(lost.err.rfind("empty/lost.bvh: ", 0), 0U) << lost.err;
 }
 
+TEST_F(MistakesTest, AnIngestThatMakesNoArchiveIsNoSuccess) {
+  fs::create_directory(folder() / "empty");
+  const Outcome outcome = reprise({"ingest", "new.rpz", "empty"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("no archive was made"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder() / "new.rpz"));
+  EXPECT_EQ(reprise({"ingest", "new.rpz", "empty", "--dry-run"}).exit_code, 0);
+}
+
+TEST_F(MistakesTest, NothingMeasuredIsNoErrorOfZero) {
+  make_library();
+  fs::create_directory(folder() / "empty");
+  EXPECT_TRUE(document({"verify", "lib.rpz", "--against", "empty"}, 1).at("error_mm").is_null());
+  EXPECT_GT(document({"verify", "lib.rpz", "--against", "takes"}).at("error_mm").at("max"), 0.0);
+  const Outcome outcome = reprise({"verify", "lib.rpz", "--against", "empty"});
+  EXPECT_EQ(outcome.err.rfind("reprise: lib.rpz: some takes", 0), 0U) << outcome.err;
+}
+
 TEST_F(MistakesTest, TwoFilesOfOneNameDoNotChangeIt) {
   output({"synth", "a", "--takes", "1", "--seconds", "2", "--subjects", "1"});
   output({"synth", "b", "--takes", "1", "--seconds", "2", "--subjects", "1", "--seed", "2"});
@@ -187,7 +205,8 @@ TEST_F(MistakesTest, AWrongFileForAnArgumentIsNamedBeforeAnythingIsStored) {
   refused({"ingest", "lib.rpz", "one", "--asf", "none.asf"}, 1, "none.asf: ");
   refused({"ingest", "lib.rpz", "one", "--metadata", "none.csv"}, 1, "none.csv: ");
   refused({"ingest", "none/lib.rpz", "one"}, 1, "No such file");
-  refused({"ingest", "one", "one"}, 1, "directory");
+  refused({"ingest", "one", "one"}, 4, "this is a folder");
+  refused({"list", "one"}, 4, "this is a folder");
   refused({"ingest", "one/s01/s01_01.bvh", "one"}, 4, "not a Reprise archive");
   refused({"info", "lib.rpz", ""}, 2, "ID takes a text");
   refused({"repeats", "lib.rpz", ""}, 2, "ID takes a text");

@@ -120,6 +120,15 @@ TEST_F(SearchTest, ErrorsHaveTheirCodes) {
   EXPECT_EQ(reprise({"search", "lib.rpz", "--id", "no-such-take"}).exit_code, 7);
   EXPECT_NE(reprise({"search", "lib.rpz", "--like", "nothing.bvh"}).exit_code, 0);
   EXPECT_EQ(reprise({"search", "nowhere.rpz", "--id", take}).exit_code, 1);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--id", take, "--unit-mm", "10"}).exit_code, 2);
+  EXPECT_EQ(reprise({"search", "lib.rpz", "--like", file, "--to", "0.001"}).exit_code, 2);
+}
+
+TEST_F(SearchTest, ALimitThatLeavesNothingIsBlamedItself) {
+  const std::string take = take_names()[0];
+  const Outcome none = reprise({"search", "lib.rpz", "--id", take, "--limit-mm", "0"});
+  EXPECT_EQ(none.exit_code, 0);
+  EXPECT_NE(none.err.find("no take is within 0 mm"), std::string::npos) << none.err;
 }
 
 TEST_F(SearchTest, InfoShowsTheBodyAndAMapCorrectsIt) {

@@ -97,6 +97,25 @@ TEST(CompareTakes, OtherSkeletonsCannotBeCompared) {
   EXPECT_THROW(compare_takes(two, take_of("1\n", 1)), Error);
 }
 
+TEST(CompareTakes, JointsThatHangElsewhereCannotBeCompared) {
+  const auto joint = [](const std::string& inside, const char* name) {
+    return std::string(name) + "\n{\nOFFSET 0 1 0\nCHANNELS 1 Zrotation\n" + inside + "}\n";
+  };
+  const auto take = [](const std::string& joints) {
+    return read_bvh("HIERARCHY\n" + joints + "MOTION\nFrames: 1\nFrame Time: 0.01\n1 2 3\n",
+                    "a.bvh");
+  };
+  const Take chain = take(joint(joint(joint("", "JOINT c"), "JOINT b"), "ROOT a"));
+  const Take fork = take(joint(joint("", "JOINT b") + joint("", "JOINT c"), "ROOT a"));
+  EXPECT_THROW(compare_takes(chain, fork), Error);
+  EXPECT_EQ(compare_takes(chain, chain).errors.max, 0.0);
+}
+
+TEST(CompareTakes, NoFramesAreNoComparison) {
+  EXPECT_THROW(compare_takes(take_of("1\n", 1), take_of("", 0)), Error);
+  EXPECT_THROW(compare_takes(take_of("", 0), take_of("1\n", 1)), Error);
+}
+
 TEST(FootSkate, IsTheSpeedDuringContact) {
   const auto skate =
       foot_skate(skeleton_of({"LeftFoot"}), sliding(50, 100, 40), sliding(50, 100, 90), 100);

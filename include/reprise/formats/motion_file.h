@@ -48,7 +48,8 @@ Take read_amc(std::string_view text, const std::string& file,
 Skeleton read_bvh_skeleton(std::string_view text, const std::string& file,
                            double millimetres_per_unit = default_millimetres_per_unit);
 
-/// True for the extensions .bvh and .amc, in any case.
+/// What a file's name says that it is: the extensions .bvh and .amc, in any case; else none.
+std::optional<MotionFormat> motion_format_of(const std::filesystem::path& path);
 bool is_motion_file(const std::filesystem::path& path);
 
 /// Whether a file's name ends as those of ASF skeletons do, in any case.

@@ -1,0 +1,79 @@
+// A change waits for those that read the archive, says so, and not for other programs that write.
+#include <sqlite3.h>
+
+#include "reprise/error.h"
+#include "store/database.h"
+#include "store/sample_store.h"
+
+namespace reprise {
+namespace {
+
+class WaitingTest : public StoreTest {
+ protected:
+  ErrorCode code_of_compacting(WaitNotice waiting = {}) {
+    try {
+      ArchiveStore::open_for_writing(path_, std::move(waiting)).compact();
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode{};
+  }
+};
+
+TEST_F(WaitingTest, ACommitWaitsUntilTheReadersAreDone) {
+  const Ground ground = make_sample(path_, 2);
+  const ArchiveStore reader = ArchiveStore::open_for_reading(path_);
+  ArchiveStore::Snapshot snapshot = reader.snapshot();
+  int told = 0;
+  ArchiveStore writer = ArchiveStore::open_for_writing(path_, [&] {
+    ++told;
+    snapshot.reset();
+    return true;
+  });
+  writer.begin();
+  add_sample(writer, ground, 5);
+  writer.commit();
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(reader.takes({}).size(), 3u);
+}
+
+TEST_F(WaitingTest, AWriterThatGivesUpLeavesTheArchiveAsItWas) {
+  const Ground ground = make_sample(path_, 2);
+  const std::string before = read_bytes(path_);
+  {
+    const ArchiveStore reader = ArchiveStore::open_for_reading(path_);
+    const ArchiveStore::Snapshot snapshot = reader.snapshot();
+    ArchiveStore writer = ArchiveStore::open_for_writing(path_, [] { return false; });
+    writer.begin();
+    add_sample(writer, ground, 5);
+    try {
+      writer.commit();
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::interrupted);
+    }
+    EXPECT_EQ(reader.takes({}).size(), 2u);
+  }
+  EXPECT_EQ(read_bytes(path_), before);
+}
+
+TEST_F(WaitingTest, CompactingTellsThatItWaitsForReadersAlone) {
+  make_sample(path_, 2);
+  {
+    const ArchiveStore reader = ArchiveStore::open_for_reading(path_);
+    ArchiveStore::Snapshot snapshot = reader.snapshot();
+    EXPECT_EQ(code_of_compacting([&] {
+                snapshot.reset();
+                return true;
+              }),
+              ErrorCode{});
+  }
+  Database other(path_, Database::Mode::write);
+  other.run("BEGIN IMMEDIATE");
+  bool told = false;
+  EXPECT_EQ(code_of_compacting([&] { return told = true; }), ErrorCode::locked);
+  EXPECT_FALSE(told);
+}
+
+}  // namespace
+}  // namespace reprise
