@@ -63,6 +63,7 @@ class MotionSearchTest : public testing::Test {
     ingest_options.fidelity.tier = FidelityTier::preview;
     ingest_options.fidelity.limit_mm = 20;
     ingest_options.prefix = prefix;
+    ingest_options.jobs = 2;
     const IngestReport report = ingest(archive(), ingest_options);
     ASSERT_TRUE(report.rejected.empty());
   }
