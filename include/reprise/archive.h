@@ -236,6 +236,9 @@ class Archive {
   Archive& operator=(Archive&&) noexcept;
 
   std::vector<TakeInfo> takes(const TakeFilter& filter = {}) const;
+  /// All takes that a damaged archive still knows; what is lost of the others is added to
+  /// `damaged`.
+  std::vector<TakeInfo> readable_takes(std::vector<Damage>& damaged) const;
   std::vector<ClipInfo> clips(const TakeFilter& filter = {}) const;
   std::vector<SkeletonInfo> skeletons() const;
   std::vector<std::string> subjects() const;

@@ -10,6 +10,10 @@
 namespace reprise {
 namespace {
 
+/// Bytes a frame for each channel (twists, numbers and knots, as they are and as they are decoded)
+/// and for each joint (where it is and where it is decoded to).
+constexpr std::size_t channel_bytes = 150, joint_bytes = 260;
+
 std::vector<ClipRecord> clips_of(const FreshTake& fresh, const Take& take, const ClipPlan& plan) {
   const auto planned = plan.takes.find(fresh.file.name);
   if (planned == plan.takes.end()) return {whole_take_clip(fresh.outline.content, take.frames())};
@@ -57,6 +61,12 @@ std::size_t CodedTake::bytes() const {
   std::size_t bytes = 0;
   for (const LayerRecord& layer : record.layers) bytes += layer.data.size();
   return bytes;
+}
+
+std::size_t coding_memory(const Skeleton& skeleton, long frames) {
+  const std::size_t a_frame = channel_bytes * static_cast<std::size_t>(skeleton.channel_count) +
+                              joint_bytes * skeleton.joints.size();
+  return static_cast<std::size_t>(frames) * a_frame;
 }
 
 CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, const ClipPlan& plan,

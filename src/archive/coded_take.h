@@ -23,6 +23,10 @@ struct CodedTake {
   std::size_t bytes() const;
 };
 
+/// About what coding a take needs at most, in bytes; measured,
+/// docs/findings/2026-11-27-long-takes.md.
+std::size_t coding_memory(const Skeleton& skeleton, long frames);
+
 /// Reads the take's file again and codes it on the space assigned to it. May be called from several
 /// threads. What is wrong with the file is in `rejected`; throws Error for everything else.
 CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, const ClipPlan& plan,

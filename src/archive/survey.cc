@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "archive/memory_budget.h"
+#include "archive/coded_take.h"
 #include "archive/parallel.h"
 
 namespace reprise {

@@ -128,7 +128,8 @@ void ExtractCommand::check() {
 ExitCode ExtractCommand::run(Console& console) {
   const InterruptionGuard guard;
   const Archive archive(archive_);
-  const std::vector<PlannedExtract> plan = plan_extract(archive, request_);
+  std::vector<Damage> damaged;
+  const std::vector<PlannedExtract> plan = plan_extract(archive, request_, damaged);
   if (file_ == "-") {
     console.bytes(motion_text(archive, plan.front(), request_.fidelity).text);
     return exit_done;
@@ -142,20 +143,37 @@ ExitCode ExtractCommand::run(Console& console) {
     targets = targets_in(folder_, plan, overwrite_);
   }
 
+  const Json entries = write_all(archive, plan, targets, damaged, console);
+  console.document({{"extracted", entries}, {"damaged", to_json(damaged)}});
+  for (const Damage& damage : damaged) {
+    console.complaint(
+        printable(fmt::format("reprise: {}: {}: {}", archive_.string(), damage.id, damage.why)));
+  }
+  return damaged.empty() ? exit_done : static_cast<int>(ErrorCode::damaged);
+}
+
+Json ExtractCommand::write_all(const Archive& archive, const std::vector<PlannedExtract>& plan,
+                               const std::vector<fs::path>& targets, std::vector<Damage>& damaged,
+                               Console& console) const {
   Json entries = Json::array();
   MotionOutput output(archive_, overwrite_);
   ProgressBar bar("extract", console.progress_terminal());
   for (std::size_t i = 0; i < plan.size(); ++i) {
     InterruptionGuard::check();
     bar.show({i, plan.size(), plan[i].take.name});
-    const MotionText motion = motion_text(archive, plan[i], request_.fidelity);
-    if (!folder_.empty()) make_folder_of(targets[i]);
-    const std::vector<fs::path> files = output.write(*motion.skeleton, motion.text, targets[i]);
-    for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
-    entries.push_back(entry_of(plan[i], files));
+    try {
+      const MotionText motion = motion_text(archive, plan[i], request_.fidelity);
+      if (!folder_.empty()) make_folder_of(targets[i]);
+      const std::vector<fs::path> files = output.write(*motion.skeleton, motion.text, targets[i]);
+      for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
+      entries.push_back(entry_of(plan[i], files));
+    } catch (const Error& error) {
+      // What else the archive holds may be whole.
+      if (error.code() != ErrorCode::damaged || folder_.empty()) throw;
+      damaged.push_back({plan[i].take.name, error.reason()});
+    }
   }
-  console.document({{"extracted", entries}});
-  return exit_done;
+  return entries;
 }
 
 }  // namespace reprise::cli

@@ -17,6 +17,11 @@ class ExtractCommand : public Command {
   ExitCode run(Console& console) override;
 
  private:
+  /// What was written. With -d a take that is damaged is added to `damaged`, and the rest goes on.
+  Json write_all(const Archive& archive, const std::vector<PlannedExtract>& plan,
+                 const std::vector<std::filesystem::path>& targets, std::vector<Damage>& damaged,
+                 Console& console) const;
+
   std::filesystem::path archive_;
   ExtractRequest request_;
   std::filesystem::path file_;

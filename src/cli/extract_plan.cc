@@ -51,10 +51,11 @@ PlannedExtract plan_one(const std::string& id, const Archive::Selection& selecti
   return {id, take, frames, file_name};
 }
 
-std::vector<PlannedExtract> plan_all(const Archive& archive, const ExtractRequest& request) {
+std::vector<PlannedExtract> plan_all(const Archive& archive, const ExtractRequest& request,
+                                     std::vector<Damage>& damaged) {
   std::vector<PlannedExtract> plan;
   if (request.all) {
-    for (const TakeInfo& take : archive.takes()) {
+    for (const TakeInfo& take : archive.readable_takes(damaged)) {
       plan.push_back(plan_one(take.name, {take, {0, take.frames}, std::nullopt}, request));
     }
     return plan;
@@ -70,10 +71,11 @@ std::string motion_file_name(std::string_view name, MotionFormat format) {
   return name.ends_with(extension) ? std::string(name) : std::string(name) + extension;
 }
 
-std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request) {
+std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request,
+                                         std::vector<Damage>& damaged) {
   std::vector<PlannedExtract> plan;
   std::map<std::string, PlannedExtract> seen;
-  for (PlannedExtract& entry : plan_all(archive, request)) {
+  for (PlannedExtract& entry : plan_all(archive, request, damaged)) {
     const auto [found, fresh] = seen.emplace(entry.file_name, entry);
     if (fresh) {
       plan.push_back(std::move(entry));

@@ -31,8 +31,9 @@ struct PlannedExtract {
 
 /// Throws Error: not_found, usage (fidelity or format that the archive cannot give), failed (frames
 /// that are not there, two different motions with one file name). What is asked for twice is
-/// planned once.
-std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request);
+/// planned once. With --all, what cannot be read of the archive is added to `damaged`.
+std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request,
+                                         std::vector<Damage>& damaged);
 
 /// "walk/01" and bvh: "walk/01.bvh"; a name that has the extension already keeps it.
 std::string motion_file_name(std::string_view name, MotionFormat format);

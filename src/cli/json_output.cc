@@ -15,6 +15,12 @@ Json to_json(const PositionErrors& errors) {
   return {{"mean", errors.mean}, {"rms", errors.rms}, {"p99", errors.p99}, {"max", errors.max}};
 }
 
+Json to_json(const std::vector<Damage>& damaged) {
+  Json entries = Json::array();
+  for (const Damage& damage : damaged) entries.push_back({{"id", damage.id}, {"why", damage.why}});
+  return entries;
+}
+
 Json to_json(const TakeInfo& take) {
   // The row number means nothing outside this archive; what names a take is its name.
   return {{"id", take.name},

@@ -28,10 +28,12 @@ std::string results_table(const std::vector<SearchResult>& results, bool bold) {
                {"SUBJECT", left},
                {"START", right},
                {"END", right},
-               {"DISTANCE MM", right}});
+               {"DISTANCE MM", right},
+               {"UNLIKENESS", right}});  // which they are ordered by
   for (const SearchResult& result : results) {
     table.add({result.take, result.subject, format_number(result.start, 2),
-               format_number(result.end, 2), format_number(result.distance_mm, 1)});
+               format_number(result.end, 2), format_number(result.distance_mm, 1),
+               format_number(result.unlikeness, 1)});
   }
   return table.text(bold);
 }

@@ -13,14 +13,10 @@ namespace reprise::cli {
 namespace {
 
 Json document_of(const VerifyReport& report) {
-  Json damaged = Json::array();
-  for (const Damage& damage : report.damaged) {
-    damaged.push_back({{"id", damage.id}, {"why", damage.why}});
-  }
   return {{"ok", report.ok},
           {"takes", report.takes},
           {"clips", report.clips},
-          {"damaged", damaged},
+          {"damaged", to_json(report.damaged)},
           {"error_mm", report.measured > 0 ? to_json(report.error_mm) : Json(nullptr)}};
 }
 

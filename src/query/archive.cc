@@ -26,11 +26,22 @@ bool may_be_clip_id(const std::string& id) {
          id.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
 }
 
+/// By its name; where the index of names is damaged, by its number, which is as good until another
+/// process changes the archive.
+std::optional<TakeRecord> find_again(const OpenArchive& archive, const TakeInfo& take) {
+  try {
+    return archive.store.find_take(take.name);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::damaged) throw;
+    return archive.store.take(take.id);
+  }
+}
+
 /// A take that was found before; another process may have taken it out since.
 TakeRecord record_of(const OpenArchive& archive, const TakeInfo& take) {
-  std::optional<TakeRecord> record = archive.store.find_take(take.name);
-  if (!record || record->info.source_digest != take.source_digest ||
-      record->info.frames != take.frames) {
+  std::optional<TakeRecord> record = find_again(archive, take);
+  if (!record || record->info.name != take.name ||
+      record->info.source_digest != take.source_digest || record->info.frames != take.frames) {
     throw Error(ErrorCode::not_found,
                 "the take '" + take.name + "' is not in the archive any more");
   }
@@ -130,6 +141,11 @@ Archive& Archive::operator=(Archive&&) noexcept = default;
 std::vector<TakeInfo> Archive::takes(const TakeFilter& filter) const {
   const auto snapshot = impl_->snapshot();
   return impl_->store.takes(filter);
+}
+
+std::vector<TakeInfo> Archive::readable_takes(std::vector<Damage>& damaged) const {
+  const auto snapshot = impl_->snapshot();
+  return impl_->store.readable_takes(damaged);
 }
 
 std::vector<ClipInfo> Archive::clips(const TakeFilter& filter) const {

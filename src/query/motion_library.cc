@@ -6,6 +6,9 @@
 #include <mutex>
 #include <thread>
 
+#include "model/free_memory.h"
+#include "model/memory_budget.h"
+#include "query/take_decoder.h"
 #include "reprise/error.h"
 #include "store/digest.h"
 
@@ -57,6 +60,7 @@ class Decoding {
       const Archive archive(archive_);
       for (std::size_t i; !stopped_ && (i = next_++) < missing_.size();) {
         const TakeInfo& info = infos_[missing_[i]];
+        const auto share = memory_.take(decoding_memory(info));
         takes_[missing_[i]].track = posture_track(archive.extract(info), map_);
         if (progress && !progress({i + 1, missing_.size(), info.name})) {
           throw Error(ErrorCode::interrupted, "interrupted");
@@ -74,6 +78,7 @@ class Decoding {
   const std::vector<TakeInfo>& infos_;
   std::vector<LibraryTake>& takes_;
   std::vector<std::size_t> missing_;
+  MemoryBudget memory_{free_memory()};
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stopped_ = false;
   std::mutex mutex_;

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "model/free_memory.h"
+#include "model/memory_budget.h"
 #include "query/take_decoder.h"
 #include "rma/parallel_for.h"
 
@@ -15,7 +17,9 @@ SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes
   std::vector<PostureMatrix> postures(takes.size());
   std::vector<double> sizes(takes.size());
   std::mutex reading;
+  MemoryBudget memory(free_memory());
   parallel_for(takes.size(), jobs, [&](std::size_t t) {
+    const auto share = memory.take(decoding_memory(takes[t]));
     const StoredLayer stored = [&] {
       const std::lock_guard lock(reading);
       tick(takes[t]);

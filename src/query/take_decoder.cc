@@ -17,6 +17,7 @@ namespace {
 
 /// In the file's units or degrees; a source has at most InputLimits::magnitude.
 constexpr double greatest_channel = 1e12;
+constexpr std::size_t decoding_bytes_per_number = 40;
 /// What takes no more memory than that is decoded without a look at how much there is.
 constexpr std::size_t always_there = std::size_t{256} << 20;
 
@@ -120,9 +121,12 @@ ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::str
 }  // namespace
 
 std::size_t decoding_memory(const Skeleton& skeleton, long frames) {
-  constexpr std::size_t channel_bytes = 40;
-  return static_cast<std::size_t>(frames) * channel_bytes *
+  return static_cast<std::size_t>(frames) * decoding_bytes_per_number *
          static_cast<std::size_t>(skeleton.channel_count);
+}
+
+std::size_t decoding_memory(const TakeInfo& take) {
+  return take.raw_bytes / sizeof(float) * decoding_bytes_per_number;
 }
 
 void check_decoding_memory(const TakeInfo& take, const Skeleton& skeleton, std::size_t free) {

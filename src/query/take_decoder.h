@@ -15,6 +15,7 @@ std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier);
 /// About what decoding a layer of a take needs at most, in bytes; measured,
 /// docs/findings/2026-11-27-long-takes.md.
 std::size_t decoding_memory(const Skeleton& skeleton, long frames);
+std::size_t decoding_memory(const TakeInfo& take);
 /// Few bytes may well be very many frames in which nothing moves: what the `free` bytes of the
 /// machine cannot hold is told, not tried. Throws Error (limit).
 void check_decoding_memory(const TakeInfo& take, const Skeleton& skeleton, std::size_t free);

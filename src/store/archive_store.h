@@ -185,6 +185,8 @@ class ArchiveStore {
   std::vector<TakeInfo> takes(const TakeFilter& filter) const;  ///< by name
   std::vector<ClipRecord> clips(
       std::span<const std::int64_t> takes) const;  ///< by take name, first frame
+  /// Those that can be read, by name; what cannot be read of the others is added to `damaged`.
+  std::vector<TakeInfo> readable_takes(std::vector<Damage>& damaged) const;
   /// Every take without the data of its layers, in the order of their rows.
   void for_each_take(const std::function<void(const TakeRecord&)>& visit) const;
   std::vector<ClipRecord> clips_with_prefix(const std::string& hexadecimal) const;

@@ -60,6 +60,26 @@ std::vector<Damage> ArchiveStore::check_structure() const {
   return damaged;
 }
 
+std::vector<TakeInfo> ArchiveStore::readable_takes(std::vector<Damage>& damaged) const {
+  const Snapshot snapshot = this->snapshot();
+  std::vector<TakeInfo> readable;
+  note_damage("takes", damaged, [&] {
+    Statement ids(*impl_->database, "SELECT id FROM blocks ORDER BY id");
+    while (ids.step()) {
+      const std::int64_t id = ids.integer();
+      note_damage("block " + std::to_string(id), damaged, [&] {
+        const auto block = impl_->block(id);
+        for (const StoredTake& stored : block->takes) {
+          note_damage(stored.record.info.name, damaged,
+                      [&] { readable.push_back(take(block->id_of(stored)).info); });
+        }
+      });
+    }
+  });
+  std::ranges::sort(readable, {}, &TakeInfo::name);
+  return readable;
+}
+
 void ArchiveStore::check_takes(std::vector<Damage>& damaged) const {
   const Database& database = *impl_->database;
   Digest sum{};

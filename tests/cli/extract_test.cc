@@ -125,6 +125,33 @@ TEST_F(ExtractTest, LinkInTheFolderIsNotFollowed) {
   EXPECT_TRUE(fs::is_empty(folder() / "elsewhere"));
 }
 
+// A page of the archive at a time: what comes out is what was stored, the rest is named.
+TEST_F(ExtractTest, WhatIsWholeComesOutOfADamagedArchive) {
+  make_library({"--takes", "3", "--seconds", "2", "--subjects", "1"}, {"--fidelity", "exact"});
+  const std::vector<std::string> names = take_names();
+  const std::string whole = read_file(folder() / "lib.rpz");
+  constexpr std::size_t tried = 10;
+  std::size_t in_part = 0;
+  for (std::size_t n = 1; n <= tried; ++n) {
+    std::string damaged = whole;
+    damaged[whole.size() / (tried + 1) * n] ^= 1;
+    write_file(folder() / "damaged.rpz", damaged);
+    const std::string out = "out" + std::to_string(n);
+    const Outcome outcome = reprise({"extract", "damaged.rpz", "--all", "-d", out});
+    std::size_t written = 0;
+    for (const std::string& name : names) {
+      const fs::path file = folder() / out / (name + ".bvh");
+      const bool there = fs::exists(file);
+      written += there;
+      EXPECT_TRUE(!there || read_file(file) == read_file(folder() / "takes" / (name + ".bvh")));
+    }
+    EXPECT_EQ(outcome.exit_code, written == names.size() ? 0 : 4) << outcome.err;
+    EXPECT_EQ(outcome.err.empty(), written == names.size()) << outcome.err;
+    in_part += written > 0 && written < names.size();
+  }
+  EXPECT_GT(in_part, 0u);
+}
+
 TEST_F(ExtractTest, ComparisonSaysWhatDiffers) {
   const auto bvh = [](const std::string& joint, const std::string& time) {
     return "HIERARCHY\nROOT " + joint +

@@ -1,17 +1,11 @@
-// Keeps takes that are coded at the same time within the memory that the machine has.
+// Keeps takes that are coded or decoded at the same time within the memory that the machine has.
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
 
-#include "reprise/model/skeleton.h"
-
 namespace reprise {
-
-/// About what coding a take needs at most, in bytes; measured,
-/// docs/findings/2026-11-27-long-takes.md.
-std::size_t coding_memory(const Skeleton& skeleton, long frames);
 
 class MemoryBudget {
  public:
