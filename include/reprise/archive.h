@@ -186,6 +186,8 @@ struct IngestReport {
   std::vector<std::string>
       other_fidelity;  ///< of `skipped`: stored with another than was asked for
   std::vector<std::string> other_metadata;  ///< of `skipped`: not what their rows say
+  /// Of `skipped`: stored with another unit or frame rate than was asked for.
+  std::vector<std::string> other_reading;
   std::vector<RejectedInput> rejected;
   std::vector<std::string> takes_not_found;  ///< of the metadata: rows that are of no input
   double seconds = 0;
@@ -288,9 +290,9 @@ class Archive {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Takes out takes by ID, all or none. `progress` is called while other processes keep it waiting.
-/// Throws Error (not_found, locked).
-void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids,
+/// Takes out takes by their whole names, all or none. `progress` is called while other processes
+/// keep it waiting. Throws Error (not_found, locked).
+void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& names,
                   const ProgressSink& progress = {});
 
 /// Gives back the space of removed takes. `progress` as above. Throws Error (locked).

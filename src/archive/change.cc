@@ -1,5 +1,6 @@
 // Takes out takes, and gives back their space.
-#include "query/archive_impl.h"
+#include <set>
+
 #include "reprise/archive.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"
@@ -14,19 +15,16 @@ WaitNotice notice_of(const ProgressSink& progress) {
 
 }  // namespace
 
-void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& ids,
+void remove_takes(const std::filesystem::path& archive, const std::vector<std::string>& names,
                   const ProgressSink& progress) {
-  std::vector<std::string> names;
-  {
-    const Archive reader(archive);
-    for (const std::string& id : ids) names.push_back(reader.find_take(id).name);
-  }
+  { const Archive must_be_readable(archive); }
   ArchiveStore store = ArchiveStore::open_for_writing(archive, notice_of(progress));
   store.begin();
   try {
-    for (const std::string& name : names) {
-      // An ID may be given twice.
-      if (const auto take = store.find_take(name)) store.remove_take(take->info.id);
+    for (const std::string& name : std::set<std::string>(names.begin(), names.end())) {
+      const auto take = store.find_take(name);
+      if (!take) throw Error(ErrorCode::not_found, "there is no take '" + name + "'");
+      store.remove_take(take->info.id);
     }
   } catch (...) {
     store.roll_back();

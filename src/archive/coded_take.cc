@@ -32,8 +32,7 @@ std::vector<ClipRecord> clips_of(const FreshTake& fresh, const Take& take, const
 }
 
 TakeRecord make_record(const FreshTake& fresh, const Take& take, const SpaceAssignment& assignment,
-                       const MetadataTable& metadata, const IngestOptions& options,
-                       TakeLayers coded) {
+                       const IngestOptions& options, TakeLayers coded) {
   TakeRecord record;
   record.layers = std::move(coded.layers);
   record.spent = std::move(coded.spent);
@@ -42,11 +41,9 @@ TakeRecord make_record(const FreshTake& fresh, const Take& take, const SpaceAssi
   record.space = assignment.space_id;
   TakeInfo& info = record.info;
   info.name = fresh.file.name;
-  info.subject = fresh.outline.subject;
-  if (const TakeMetadata* row = metadata.find(info.name)) {
-    info.description = row->description;
-    info.tags = row->tags;
-  }
+  info.subject = fresh.metadata.subject.empty() ? fresh.outline.subject : fresh.metadata.subject;
+  info.description = fresh.metadata.description;
+  info.tags = fresh.metadata.tags;
   info.frames = take.frames();
   info.fidelity = options.fidelity;
   info.text_bytes = fresh.outline.text_bytes;
@@ -70,7 +67,7 @@ std::size_t coding_memory(const Skeleton& skeleton, long frames) {
 }
 
 CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, const ClipPlan& plan,
-                    const MetadataTable& metadata, const IngestOptions& options) {
+                    const IngestOptions& options) {
   CodedTake coded;
   try {
     const auto [take, text] = read_source(fresh, options.read);
@@ -81,7 +78,7 @@ CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, c
     coded.kept = fitted.kept;
     if (!coded.kept) return coded;
     coded.record =
-        make_record(fresh, take, assignment, metadata, options,
+        make_record(fresh, take, assignment, options,
                     make_layers(options, *assignment.space, take, text, std::move(fitted)));
     coded.clips = clips_of(fresh, take, plan);
   } catch (const Error& error) {

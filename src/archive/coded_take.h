@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "archive/clip_plan.h"
-#include "archive/metadata.h"
 #include "archive/space_builder.h"
 #include "store/archive_store.h"
 
@@ -30,6 +29,6 @@ std::size_t coding_memory(const Skeleton& skeleton, long frames);
 /// Reads the take's file again and codes it on the space assigned to it. May be called from several
 /// threads. What is wrong with the file is in `rejected`; throws Error for everything else.
 CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, const ClipPlan& plan,
-                    const MetadataTable& metadata, const IngestOptions& options);
+                    const IngestOptions& options);
 
 }  // namespace reprise

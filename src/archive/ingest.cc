@@ -88,6 +88,7 @@ class Ingest {
     report_.skipped = std::move(survey.skipped);
     report_.other_fidelity = std::move(survey.other_fidelity);
     report_.other_metadata = std::move(survey.other_metadata);
+    report_.other_reading = std::move(survey.other_reading);
     if (options_.dry_run) {
       for (const FreshTake& fresh : survey.fresh) report_.added.push_back(fresh.file.name);
     } else {
@@ -100,6 +101,8 @@ class Ingest {
   void store_structures() {
     SpaceBuilder builder(*store_, options_);
     spaces_ = builder.build(fresh_, [&](const std::string& current) { tick(current); });
+    // What takes replace goes with them, but for what those need that come after.
+    for (const auto& [name, assignment] : spaces_) store_->hold_proportions(assignment.proportions);
   }
 
   void code_and_store() {
@@ -133,7 +136,7 @@ class Ingest {
           [&](std::size_t i) {
             const TakeOutline& outline = takes[i].outline;
             const auto share = memory.take(coding_memory(*outline.skeleton, outline.frames));
-            return code_take(takes[i], spaces.at(takes[i].file.name), plan_, metadata_, options_);
+            return code_take(takes[i], spaces.at(takes[i].file.name), plan_, options_);
           },
           [&](std::size_t i, CodedTake coded) {
             if (coded.rejected) {

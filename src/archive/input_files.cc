@@ -57,8 +57,7 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
   fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied,
                                          error);
   if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
-  for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     pulse();
     const std::string why = hindrance(*entry);
     if (!why.empty()) rejected.push_back({entry->path().string(), 0, why});
@@ -66,6 +65,11 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
     if (entry->is_regular_file(ignored) && is_motion_file(entry->path())) {
       found.emplace_back(entry->path(), entry->path().lexically_relative(path));
     }
+  }
+  // An error ends the loop.
+  if (error) {
+    throw Error(ErrorCode::failed, "the folder cannot be searched to its end: " + error.message(),
+                {path.string()});
   }
   return found;
 }

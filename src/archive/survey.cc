@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <set>
 
 #include "archive/coded_take.h"
 #include "archive/parallel.h"
@@ -16,13 +17,10 @@ struct Surveyed {
   TakeOutline outline;
 };
 
-Surveyed look_at(const InputFile& file, const IngestOptions& options,
-                 const MetadataTable& metadata) {
+Surveyed look_at(const InputFile& file, const IngestOptions& options) {
   Surveyed surveyed;
   try {
     surveyed.outline = outline_take(file, options.read);
-    const TakeMetadata* row = metadata.find(file.name);
-    if (row != nullptr && !row->subject.empty()) surveyed.outline.subject = row->subject;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
     surveyed.rejected = rejection(file, error);
@@ -36,41 +34,91 @@ bool told_by(const TakeMetadata* row, const TakeInfo& stored) {
                             row->description == stored.description && row->tags == stored.tags);
 }
 
-/// Where a take of that name is stored already: what becomes of the file.
-void decide(const InputFile& file, TakeOutline outline, const TakeRecord& stored,
-            const IngestOptions& options, const MetadataTable& metadata, Survey& survey) {
-  const bool same_source = stored.info.source_digest == outline.source_digest;
-  const bool same_fidelity = stored.info.fidelity.tier == options.fidelity.tier &&
-                             stored.info.fidelity.limit_mm == options.fidelity.limit_mm;
-  const bool same_metadata = told_by(metadata.find(file.name), stored.info);
-  if (same_source && ((same_fidelity && same_metadata) || !options.replace)) {
-    survey.skipped.push_back(file.name);
-    if (!same_fidelity) survey.other_fidelity.push_back(file.name);
-    if (!same_metadata) survey.other_metadata.push_back(file.name);
-  } else if (options.replace) {
-    survey.fresh.push_back({file, std::move(outline), true});
-  } else {
-    survey.rejected.push_back({file.path.string(), 0,
-                               "a take '" + file.name +
-                                   "' with other content is stored already; --replace "
-                                   "replaces it, --prefix P gives the new "
-                                   "one another name"});
+/// Decides what becomes of each file in turn.
+class Deciding {
+ public:
+  Deciding(const std::vector<InputFile>& files, const IngestOptions& options,
+           const MetadataTable& metadata, const ArchiveStore* store, Survey& survey)
+      : options_(options), metadata_(metadata), store_(store), survey_(survey) {
+    for (const InputFile& file : files) names_.insert(file.name);
   }
-}
 
-/// The stored take that a file is about: of its name, or the same file under the name that it had
-/// when another one stood beside it, or when none did (x.bvh beside x.amc).
-std::optional<TakeRecord> stored_take(const InputFile& file, const TakeOutline& outline,
-                                      const ArchiveStore& store) {
-  if (std::optional<TakeRecord> same_name = store.find_take(file.name)) return same_name;
-  const std::string extension = file.path.extension().string();
-  const std::string other = file.name.ends_with(extension)
-                                ? file.name.substr(0, file.name.size() - extension.size())
-                                : file.name + extension;
-  std::optional<TakeRecord> renamed = store.find_take(other);
-  const bool same_source = renamed && renamed->info.source_digest == outline.source_digest;
-  return same_source ? renamed : std::nullopt;
-}
+  void decide(const InputFile& file, TakeOutline outline) {
+    const TakeMetadata* row = metadata_.find(file.name);
+    const std::optional<TakeRecord> stored = stored_take(file, outline);
+    FreshTake fresh{file, std::move(outline), row != nullptr ? *row : TakeMetadata{}, false};
+    if (!stored) {
+      survey_.fresh.push_back(std::move(fresh));
+      return;
+    }
+    fresh.file.name = stored->info.name;
+    names_.insert(stored->info.name);
+    decide_again(std::move(fresh), *stored, row);
+  }
+
+ private:
+  /// Where the take is stored already.
+  void decide_again(FreshTake fresh, const TakeRecord& stored, const TakeMetadata* row) {
+    const std::string& name = stored.info.name;
+    const bool same_source = stored.info.source_digest == fresh.outline.source_digest;
+    const bool same_fidelity = stored.info.fidelity.tier == options_.fidelity.tier &&
+                               stored.info.fidelity.limit_mm == options_.fidelity.limit_mm;
+    const bool same_metadata = told_by(row, stored.info);
+    const bool same_reading = read_as_asked(fresh.outline, stored);
+    const bool same = same_fidelity && same_metadata && same_reading;
+    if (same_source && (same || !options_.replace)) {
+      survey_.skipped.push_back(name);
+      if (!same_fidelity) survey_.other_fidelity.push_back(name);
+      if (!same_metadata) survey_.other_metadata.push_back(name);
+      if (!same_reading) survey_.other_reading.push_back(name);
+    } else if (options_.replace) {
+      // Without a row nothing is said of the take, and what was said before stays.
+      if (row == nullptr) {
+        fresh.metadata = {stored.info.subject, stored.info.description, stored.info.tags};
+      }
+      fresh.replaces = true;
+      survey_.fresh.push_back(std::move(fresh));
+    } else {
+      survey_.rejected.push_back({fresh.file.path.string(), 0,
+                                  "a take '" + name +
+                                      "' with other content is stored already; --replace "
+                                      "replaces it, --prefix P gives the new "
+                                      "one another name"});
+    }
+  }
+
+  /// Whether a stored take has the unit or frame rate that is asked for, where one is.
+  bool read_as_asked(const TakeOutline& outline, const TakeRecord& stored) const {
+    const ReadOptions& read = options_.read;
+    if (stored.info.format == MotionFormat::asf_amc) {
+      return !read.amc_frame_rate || outline.frame_rate == stored.info.frame_rate;
+    }
+    return !read.bvh_millimetres_per_unit ||
+           outline.skeleton->millimetres_per_unit ==
+               store_->proportions(stored.proportions).millimetres_per_unit;
+  }
+
+  /// The stored take that a file is about: of its name, or the same file under the name that it had
+  /// when another one stood beside it, or when none did (x.bvh beside x.amc).
+  std::optional<TakeRecord> stored_take(const InputFile& file, const TakeOutline& outline) const {
+    if (store_ == nullptr) return std::nullopt;
+    if (std::optional<TakeRecord> same_name = store_->find_take(file.name)) return same_name;
+    const std::string extension = file.path.extension().string();
+    const std::string other = file.name.ends_with(extension)
+                                  ? file.name.substr(0, file.name.size() - extension.size())
+                                  : file.name + extension;
+    if (names_.contains(other)) return std::nullopt;
+    std::optional<TakeRecord> renamed = store_->find_take(other);
+    const bool same_source = renamed && renamed->info.source_digest == outline.source_digest;
+    return same_source ? renamed : std::nullopt;
+  }
+
+  const IngestOptions& options_;
+  const MetadataTable& metadata_;
+  const ArchiveStore* store_;
+  Survey& survey_;
+  std::set<std::string> names_;  ///< of all files, and those that were found under another one
+};
 
 /// Moves takes that cannot be coded on this machine from `fresh` to `rejected`.
 void reject_too_large(std::size_t memory_bytes, Survey& survey) {
@@ -111,23 +159,15 @@ Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& op
                     const MetadataTable& metadata, const ArchiveStore* store,
                     std::size_t memory_bytes, const std::function<void(const std::string&)>& tick) {
   Survey survey;
+  Deciding deciding(files, options, metadata, store, survey);
   produce_in_order(
-      files.size(), options.jobs,
-      [&](std::size_t i) { return look_at(files[i], options, metadata); },
+      files.size(), options.jobs, [&](std::size_t i) { return look_at(files[i], options); },
       [&](std::size_t i, Surveyed surveyed) {
         tick(files[i].name);
         if (surveyed.rejected) {
           survey.rejected.push_back(std::move(*surveyed.rejected));
-          return;
-        }
-        const auto stored =
-            store != nullptr ? stored_take(files[i], surveyed.outline, *store) : std::nullopt;
-        if (stored) {
-          InputFile file = files[i];
-          file.name = stored->info.name;
-          decide(file, std::move(surveyed.outline), *stored, options, metadata, survey);
         } else {
-          survey.fresh.push_back({files[i], std::move(surveyed.outline), false});
+          deciding.decide(files[i], std::move(surveyed.outline));
         }
       });
   reject_too_large(memory_bytes, survey);

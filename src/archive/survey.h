@@ -12,9 +12,10 @@
 namespace reprise {
 
 struct Survey {
-  std::vector<FreshTake> fresh;                             ///< to be stored
-  std::vector<std::string> skipped;                         ///< stored already
-  std::vector<std::string> other_fidelity, other_metadata;  ///< of `skipped`, as in IngestReport
+  std::vector<FreshTake> fresh;      ///< to be stored
+  std::vector<std::string> skipped;  ///< stored already
+  /// Of `skipped`, as in IngestReport.
+  std::vector<std::string> other_fidelity, other_metadata, other_reading;
   std::vector<RejectedInput> rejected;
 };
 

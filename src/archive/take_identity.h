@@ -5,6 +5,7 @@
 #include <string>
 
 #include "archive/input_files.h"
+#include "archive/metadata.h"
 #include "archive/space_training.h"
 #include "reprise/formats/motion_file.h"
 #include "store/archive_store.h"
@@ -29,6 +30,7 @@ struct TakeOutline {
 struct FreshTake {
   InputFile file;
   TakeOutline outline;
+  TakeMetadata metadata;  ///< what is known of it besides the file; an empty subject is the file's
   bool replaces = false;
 };
 

@@ -168,6 +168,8 @@ Json ExtractCommand::write_all(const Archive& archive, const std::vector<Planned
       for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
       entries.push_back(entry_of(plan[i], files));
     } catch (const Error& error) {
+      // Another process has taken it out meanwhile.
+      if (error.code() == ErrorCode::not_found && request_.all) continue;
       // What else the archive holds may be whole.
       if (error.code() != ErrorCode::damaged || folder_.empty()) throw;
       damaged.push_back({plan[i].take.name, error.reason()});

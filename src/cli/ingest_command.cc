@@ -69,6 +69,7 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
           {"skipped", report.skipped},
           {"other_fidelity", report.other_fidelity},
           {"other_metadata", report.other_metadata},
+          {"other_reading", report.other_reading},
           {"takes_not_found", report.takes_not_found},
           {"rejected", rejected},
           {"seconds", report.seconds},
@@ -167,6 +168,12 @@ ExitCode IngestCommand::run(Console& console) {
     console.message(
         fmt::format("{} stored with other metadata than given, and kept so; --replace stores anew",
                     format_count(report.other_metadata.size(), "take")));
+  }
+  if (!report.other_reading.empty()) {
+    console.message(fmt::format(
+        "{} stored with another unit or frame rate than asked for, and kept so; --replace stores "
+        "anew",
+        format_count(report.other_reading.size(), "take")));
   }
   if (!report.takes_not_found.empty()) {
     console.message(printable(fmt::format("{}: {} of no take that was given, such as '{}'",

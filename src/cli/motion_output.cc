@@ -37,6 +37,11 @@ fs::path MotionOutput::write_skeleton(const Skeleton& skeleton, const fs::path& 
     // Another skeleton of the same name; an ASF with the take's own name is found before any
     // other.
     target = fs::path(motion).replace_extension(".asf");
+    const auto other = written_.find(target.string());
+    if (other != written_.end() && other->second != skeleton.source_text) {
+      throw Error(ErrorCode::failed, "two skeletons of one folder would have this name",
+                  {target.string(), 0}, "extract their takes into different folders");
+    }
   }
   if (target == motion) {
     throw Error(ErrorCode::failed, "the skeleton and the motion would be one file",

@@ -70,7 +70,17 @@ CLI::Option* add_archive(CLI::App& app, std::filesystem::path& target) {
 
 CLI::Option* add_many(CLI::App& app, const std::string& name, std::vector<std::string>& target,
                       const std::string& description) {
-  return app.add_option(name, target, description)->type_name("");
+  return app
+      .add_option_function<std::vector<std::string>>(
+          name,
+          [name, &target](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              if (text.empty()) refuse_value(name, text, "texts that are not empty");
+            }
+            target = texts;
+          },
+          description)
+      ->type_name("");
 }
 
 void add_console_options(CLI::App& app, ConsoleOptions& options) {

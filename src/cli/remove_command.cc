@@ -8,20 +8,37 @@
 namespace reprise::cli {
 namespace {
 
+/// Whether an ID is the end of a name from the middle of a component on. What is meant by that
+/// changes with what else is stored: the same command twice must not remove two takes.
+bool is_end_of_component(const std::string& name, const std::string& id) {
+  for (const char* extension : {"", ".amc", ".bvh"}) {
+    const std::string end = id + extension;
+    if (name.size() <= end.size() || !name.ends_with(end)) continue;
+    return name[name.size() - end.size() - 1] != '/';
+  }
+  return false;
+}
+
 std::string take_of(const Archive& archive, const std::string& id) {
   const Archive::Selection selection = archive.find(id);
   if (selection.clip) {
     throw Error(ErrorCode::not_found, "'" + id + "' is a clip; only whole takes are removed", {},
                 "its take is " + selection.take.name);
   }
-  return selection.take.name;
+  const std::string& name = selection.take.name;
+  if (is_end_of_component(name, id)) {
+    throw Error(ErrorCode::not_found, "there is no take '" + id + "'", {},
+                "only '" + name + "' ends so; to remove it, give its name from a slash on");
+  }
+  return name;
 }
 
 }  // namespace
 
 void RemoveCommand::setup(CLI::App& app) {
   add_archive(app, archive_);
-  add_many(app, "ID", ids_, "Takes, by name or an unambiguous end of it")->required();
+  add_many(app, "ID", ids_, "Takes, by name or an unambiguous end of it from a slash on")
+      ->required();
   add_examples(app, {"reprise remove lib.rpz walk_01 walk_02", "reprise compact lib.rpz"});
 }
 

@@ -101,6 +101,7 @@ std::vector<std::string> names_meant(const ArchiveStore& store, const std::strin
 /// Names that end in this, wherever it begins: what a short ID may still mean.
 std::vector<std::string> names_ending_in(const ArchiveStore& store, const std::string& id) {
   std::vector<std::string> names, without_extension;
+  if (id.empty()) return names;
   for (const TakeInfo& take : store.takes({})) {
     if (take.name.ends_with(id)) names.push_back(take.name);
     for (const char* extension : {".amc", ".bvh"}) {
@@ -228,8 +229,15 @@ Archive::Selection Archive::find(const std::string& id) const {
       clip = candidate;
     }
   }
+  if (!take || clip) {
+    std::vector<std::string> names = names_ending_in(impl_->store, id);
+    if (clip && !names.empty()) {
+      names.insert(names.begin(), clip->id);
+      throw_ambiguous(id, names);
+    }
+    if (!clip) take = only_take(impl_->store, id, names);
+  }
   if (clip) return {*take, {clip->first_frame, clip->first_frame + clip->frames}, clip};
-  if (!take) take = only_take(impl_->store, id, names_ending_in(impl_->store, id));
   if (!take) throw_unknown(may_be_clip_id(id) ? "take or clip" : "take", id);
   return {*take, {0, take->frames}, std::nullopt};
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "model/free_memory.h"
 #include "model/memory_budget.h"
@@ -18,18 +20,50 @@ namespace {
 /// How often a reading is begun again because a writer took takes out meanwhile.
 constexpr int most_attempts = 10;
 
-Digest key_of(const TakeInfo& take, const JointMap& map) {
-  Hasher hasher;
-  hasher.add_text(take.name);
-  hasher.add_text(take.source_digest);
-  hasher.add_real(take.frame_rate);
-  hasher.add_number(static_cast<int>(take.fidelity.tier));
-  hasher.add_real(take.fidelity.limit_mm);
-  for (const auto& [joint, name] : map) {
-    hasher.add_number(static_cast<int>(joint));
-    hasher.add_text(name);
+/// Reads keys of takes: of all that their postures depend on.
+class TakeKeys {
+ public:
+  TakeKeys(const ArchiveStore& store, const JointMap& map) : store_(store), map_(map) {}
+
+  Digest key_of(const TakeRecord& take) {
+    Hasher hasher;
+    hasher.add_text(take.info.name);
+    hasher.add_bytes(known(proportions_, take.proportions,
+                           [&] { return store_.proportions(take.proportions).identity; }));
+    hasher.add_bytes(
+        known(spaces_, take.space, [&] { return store_.digest_of_space(take.space); }));
+    for (const LayerRecord& layer : take.layers) hasher.add_bytes(layer.digest);
+    for (const auto& [joint, name] : map_) {
+      hasher.add_number(static_cast<int>(joint));
+      hasher.add_text(name);
+    }
+    return hasher.finish();
   }
-  return hasher.finish();
+
+ private:
+  using Digests = std::map<std::int64_t, Digest>;
+  template <class Read>
+  static const Digest& known(Digests& digests, std::int64_t id, const Read& read) {
+    const auto found = digests.find(id);
+    return found != digests.end() ? found->second : digests.emplace(id, read()).first->second;
+  }
+
+  const ArchiveStore& store_;
+  const JointMap& map_;
+  Digests proportions_, spaces_;
+};
+
+/// Every take of one state of an archive, by name, with its key.
+std::vector<std::pair<TakeInfo, Digest>> keyed_takes(const std::filesystem::path& archive,
+                                                     const JointMap& map) {
+  const ArchiveStore store = ArchiveStore::open_for_reading(archive);
+  const auto snapshot = store.snapshot();
+  TakeKeys keys(store, map);
+  std::vector<std::pair<TakeInfo, Digest>> takes;
+  store.for_each_take(
+      [&](const TakeRecord& take) { takes.emplace_back(take.info, keys.key_of(take)); });
+  std::ranges::sort(takes, {}, [](const auto& take) { return take.first.name; });
+  return takes;
 }
 
 bool by_key(const LibraryTake& a, const LibraryTake& b) { return a.key < b.key; }
@@ -96,14 +130,17 @@ std::vector<LibraryTake> read_library(const std::filesystem::path& archive,
                                       const ProgressSink& progress) {
   for (int attempt = 1;; ++attempt) {
     const Digest content = content_digest(archive);
-    const std::vector<TakeInfo> infos = Archive(archive).takes();
-    std::vector<LibraryTake> takes(infos.size());
+    std::vector<TakeInfo> infos;
+    std::vector<LibraryTake> takes;
     std::vector<std::size_t> missing;
+    for (auto& [info, key] : keyed_takes(archive, setup.joint_map)) {
+      infos.push_back(std::move(info));
+      takes.emplace_back().key = key;
+    }
     for (std::size_t i = 0; i < infos.size(); ++i) {
       takes[i].name = infos[i].name;
       takes[i].subject = infos[i].subject;
       takes[i].seconds = infos[i].seconds();
-      takes[i].key = key_of(infos[i], setup.joint_map);
       const auto known = std::lower_bound(cached.begin(), cached.end(), takes[i], by_key);
       if (known != cached.end() && known->key == takes[i].key) {
         takes[i].track = known->track;

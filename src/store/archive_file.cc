@@ -7,12 +7,14 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <sstream>
 
 #include "store/archive_store.h"
 #include "store/digest.h"
 #include "store/page_checksum_vfs.h"
 #include "store/schema.h"
+#include "store/writer_lock.h"
 
 namespace reprise {
 namespace {
@@ -90,6 +92,10 @@ class TemporaryFile {
   std::string path_;
 };
 
+bool is_empty_file(const fs::path& path) {
+  return fs::is_regular_file(path) && fs::file_size(path) == 0;
+}
+
 }  // namespace
 
 bool begins_as_archive(std::string_view start) {
@@ -130,7 +136,11 @@ void check_identity(Database& database) {
 
 bool create_if_missing(const fs::path& path) {
   const bool there = fs::exists(path);
-  if (there && (!fs::is_regular_file(path) || fs::file_size(path) > 0)) return false;
+  if (there && !is_empty_file(path)) return false;
+  // Of several processes that find an empty file one alone puts an archive in its place.
+  std::optional<WriterLock> lock;
+  if (there) lock.emplace(path, false);
+  if (there && !is_empty_file(path)) return false;
   const TemporaryFile whole(path);
   try {
     create_archive(whole.path());
@@ -140,7 +150,8 @@ bool create_if_missing(const fs::path& path) {
   // Another writer may have come first; a link, where there are links, does not replace its file.
   if (!there && ::link(whole.path().c_str(), path.c_str()) == 0) return true;
   if (!there && errno == EEXIST) return false;
-  return ::rename(whole.path().c_str(), path.c_str()) == 0;
+  // What was there before is not taken away again.
+  return ::rename(whole.path().c_str(), path.c_str()) == 0 && !there;
 }
 
 std::int64_t pragma(const Database& database, const std::string& name) {

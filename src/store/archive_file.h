@@ -16,8 +16,8 @@ void check_header(const Database& database);
 void check_identity(Database& database);
 
 /// Puts an archive without takes where no file is, whole from the first moment on: a writer that
-/// dies leaves an archive, not a part of one. False if there is a file already.
-/// Throws Error: limit, failed.
+/// dies leaves an archive, not a part of one. An empty file is replaced by one in the same way.
+/// False if there was a file already. Throws Error: limit, failed, locked.
 bool create_if_missing(const std::filesystem::path& path);
 
 /// What `PRAGMA name` says.

@@ -37,6 +37,8 @@ ArchiveStore ArchiveStore::open_for_reading(const fs::path& path) {
   fs::path journal = fs::weakly_canonical(path, error);
   journal += "-journal";
   if (fs::exists(journal, error) && fs::file_size(journal, error) > 0) {
+    // Another program's file is its own to mend.
+    check_header(Database(path, Database::Mode::read));
     try {
       // A writer that died left this: opening for writing takes back what it had not finished.
       const Database recovery(path, Database::Mode::write);

@@ -21,6 +21,8 @@ namespace reprise {
 
 using Bytes = std::vector<std::uint8_t>;
 using Digest = std::array<std::uint8_t, 16>;  ///< BLAKE2b-128
+/// The first eight bytes of a digest, which is what rows carry.
+using ShortDigest = std::array<std::uint8_t, 8>;
 
 /// Whether a file that begins so is a Reprise archive, of any version.
 bool begins_as_archive(std::string_view start);
@@ -74,8 +76,9 @@ enum class LayerKind : std::uint8_t {
 /// One part of a coded take. Layers stand from the coarsest to the finest, and each is read alone.
 struct LayerRecord {
   LayerKind kind = LayerKind::coefficients;
-  double limit_mm = 0;  ///< what the layer promises, to a micrometre; 0 of a text
-  Bytes data;           ///< opaque here
+  double limit_mm = 0;   ///< what the layer promises, to a micrometre; 0 of a text
+  Bytes data;            ///< opaque here
+  ShortDigest digest{};  ///< of the data; filled in by the store
 };
 
 struct TakeRecord {
@@ -141,6 +144,9 @@ class ArchiveStore {
   void roll_back();
   std::int64_t add_skeleton(const SkeletonRecord& record);
   std::int64_t add_proportions(const ProportionsRecord& record);
+  /// They stay, with their skeleton and its spaces, for as long as this store is open, though no
+  /// take needs them yet, or any more.
+  void hold_proportions(std::int64_t id);
   std::int64_t add_space(const SpaceRecord& record);
   std::int64_t add_take(const TakeRecord& take, std::span<const ClipRecord> clips);
   /// Other kinds, groups and primaries for the clips of stored takes. Which frames they have, and

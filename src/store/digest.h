@@ -37,8 +37,7 @@ std::string hexadecimal(std::span<const std::uint8_t> bytes);
 /// The bytes of hexadecimal digits; empty where they are not.
 Bytes from_hexadecimal(std::string_view digits);
 
-/// The first eight bytes of a digest, which is what rows carry.
-using ShortDigest = std::array<std::uint8_t, 8>;
+/// The first eight bytes.
 ShortDigest shortened(const Digest& digest);
 
 /// A sum (modulo 2^128) of digests, which does not depend on their order.

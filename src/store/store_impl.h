@@ -37,6 +37,7 @@ struct ArchiveStore::Impl {
   std::optional<std::map<ClipPlace, std::set<std::int64_t>>> links;
   /// Proportions of takes that were removed in this transaction.
   std::set<std::int64_t> vacated;
+  std::set<std::int64_t> held;  ///< proportions that takes may come for yet
   struct KnownBlock {
     Bytes digest;
     std::shared_ptr<const TakeBlock> block;

@@ -117,9 +117,11 @@ class Unpacker {
     });
     std::size_t offset = 0;
     for (StoredTake& take : takes()) {
-      for (LayerPlace& place : take.places) {
+      for (std::size_t i = 0; i < take.places.size(); ++i) {
+        LayerPlace& place = take.places[i];
         place.offset = std::exchange(offset, offset + place.size);
         std::ranges::copy(reader_.raw(place.digest.size()), place.digest.begin());
+        take.record.layers[i].digest = place.digest;
       }
       take.record.info.payload_bytes = size_of_layers(take);
     }

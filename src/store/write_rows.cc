@@ -88,6 +88,8 @@ std::int64_t ArchiveStore::add_proportions(const ProportionsRecord& record) {
   return impl_->database->last_row();
 }
 
+void ArchiveStore::hold_proportions(std::int64_t id) { impl_->held.insert(id); }
+
 std::int64_t ArchiveStore::add_space(const SpaceRecord& record) {
   impl_->require_transaction();
   Digest base{};
@@ -117,6 +119,7 @@ std::int64_t ArchiveStore::add_take(const TakeRecord& take, std::span<const Clip
     const Bytes bytes = stored_form(layer, place);
     open.data.insert(open.data.end(), bytes.begin(), bytes.end());
     layer.data.clear();
+    layer.digest = place.digest;
     stored.places.push_back(place);
     stored.record.info.payload_bytes += place.size;
   }
@@ -189,7 +192,7 @@ void ArchiveStore::remove_take(std::int64_t id) {
 void ArchiveStore::Impl::remove_vacated() {
   if (vacated.empty()) return;
   // One look at all takes for all that were removed.
-  std::set<std::int64_t> used;
+  std::set<std::int64_t> used = held;
   for_each_block([&](const TakeBlock& block) {
     for (const StoredTake& take : block.takes) used.insert(take.record.proportions);
   });

@@ -10,7 +10,8 @@ namespace reprise {
 /// closing any descriptor of a file drops the POSIX locks on it.
 class WriterLock {
  public:
-  /// Throws Error (locked, failed). Where this process has `created` the file, it goes with the
+  /// Throws Error (locked, also where another process has just put another file there; failed).
+  /// Where this process has `created` the file, it goes with the
   /// lock unless keep() was called: an archive that nothing was stored in is no archive.
   WriterLock(const std::filesystem::path& path, bool created);
   ~WriterLock();

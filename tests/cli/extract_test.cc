@@ -113,6 +113,26 @@ TEST_F(ExtractTest, SkeletonOfAnotherIsNotReplaced) {
   EXPECT_FALSE(fs::exists(folder() / entry.at("file").get<std::string>()));
 }
 
+// One is named for the take, the other for its ASF: there is room for one of them.
+TEST_F(ExtractTest, ASkeletonThatWasWrittenIsNotReplacedByAnother) {
+  for (const char* seed : {"1", "2"}) {
+    const std::string in = std::string("in") + seed;
+    output({"synth", in, "--takes", "1", "--seconds", "1", "--subjects", "1", "--format", "amc",
+            "--seed", seed});
+    fs::create_directory(folder() / seed);
+    fs::copy_file(folder() / in / "s01/s01.asf", folder() / seed / "walk.asf");
+  }
+  fs::copy_file(folder() / "in1/s01/s01_01.amc", folder() / "1/run.amc");
+  fs::copy_file(folder() / "in2/s01/s01_01.amc", folder() / "2/walk.amc");
+  ASSERT_NE(read_file(folder() / "1/walk.asf"), read_file(folder() / "2/walk.asf"));
+  output({"ingest", "lib.rpz", "1"});
+  output({"ingest", "lib.rpz", "2"});
+  const Outcome outcome = reprise({"extract", "lib.rpz", "--all", "-d", "out", "--overwrite"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("two skeletons"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_file(folder() / "out/walk.asf"), read_file(folder() / "1/walk.asf"));
+}
+
 TEST_F(ExtractTest, LinkInTheFolderIsNotFollowed) {
   make_library();
   const std::string name = take_names().front();

@@ -52,6 +52,47 @@ TEST_F(IdsTest, AClipOfSeveralTakesIsTakenFromTheMostFaithful) {
   EXPECT_EQ(reprise({"extract", "lib.rpz", id, "--fidelity", "exact", "-o", "-"}).exit_code, 2);
 }
 
+// Once the one that is meant is gone, the same words must not mean another one.
+TEST_F(IdsTest, RemovingTakesNamesFromASlashOn) {
+  make_library();
+  output({"remove", "lib.rpz", "s02_01"});
+  EXPECT_EQ(reprise({"remove", "lib.rpz", "02_02"}).exit_code, 7);
+  EXPECT_EQ(reprise({"remove", "lib.rpz", "s02_01"}).exit_code, 7);
+  EXPECT_EQ(take_names().size(), 3U);
+}
+
+TEST_F(IdsTest, AnEmptyIdIsWrongUsage) {
+  output({"synth", "one", "--takes", "1", "--seconds", "1", "--subjects", "1"});
+  output({"ingest", "lib.rpz", "one"});
+  EXPECT_EQ(reprise({"remove", "lib.rpz", ""}).exit_code, 2);
+  EXPECT_EQ(reprise({"extract", "lib.rpz", "", "-o", "-"}).exit_code, 2);
+  EXPECT_EQ(reprise({"ingest", "lib.rpz", ""}).exit_code, 2);
+  EXPECT_EQ(take_names().size(), 1U);
+}
+
+TEST_F(IdsTest, WhatMayBeAClipOrTheEndOfANameIsAmbiguous) {
+  output({"synth", "one", "--takes", "1", "--seconds", "1", "--subjects", "1"});
+  output({"ingest", "lib.rpz", "one"});
+  const std::string id = document({"list", "lib.rpz", "--clips"}).at("clips")[0].at("id");
+  const std::string start = id.substr(0, 5);
+  EXPECT_EQ(reprise({"info", "lib.rpz", start}).exit_code, 0);
+  fs::rename(folder() / "one/s01/s01_01.bvh", folder() / "one/s01" / ("x" + start + ".bvh"));
+  output({"ingest", "lib.rpz", "one"});
+  const Outcome outcome = reprise({"info", "lib.rpz", start});
+  EXPECT_EQ(outcome.exit_code, 7);
+  EXPECT_NE(outcome.err.find(id + ", s01/x" + start), std::string::npos) << outcome.err;
+}
+
+TEST_F(IdsTest, TwoFilesAreNeverOneStoredTake) {
+  output({"synth", "in", "--takes", "1", "--seconds", "2", "--subjects", "1"});
+  output({"ingest", "lib.rpz", "in"});
+  fs::copy_file(folder() / "in/s01/s01_01.bvh", folder() / "in/s01/s01_01.BVH");
+  const auto report = document({"ingest", "lib.rpz", "in", "--replace", "--fidelity", "fine"});
+  EXPECT_EQ(report.at("added").size(), 2U) << report;
+  EXPECT_EQ(take_names().size(), 2U);
+  output({"verify", "lib.rpz"});
+}
+
 // What comes to lie beside a file gives it another name; it is stored already all the same.
 TEST_F(IdsTest, AFileIsStoredOnceThoughItsNameBecomesAnother) {
   output({"synth", "in", "--takes", "1", "--seconds", "2", "--subjects", "1"});

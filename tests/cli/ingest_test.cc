@@ -147,6 +147,45 @@ TEST_F(IngestTest, MetadataThatComesLaterReplacesTakes) {
   EXPECT_EQ(document(again).at("other_metadata").size(), 0U);
 }
 
+TEST_F(IngestTest, WhatWasToldOfATakeStaysWhenItIsReplaced) {
+  make_library();
+  const std::string name = take_names().front();
+  write_file(folder() / "takes.csv", "take,subject,tags\n" + name + ",Anna,gait\n");
+  output({"ingest", "told.rpz", "takes", "--metadata", "takes.csv"});
+  output({"ingest", "told.rpz", "takes", "--replace", "--fidelity", "fine"});
+  const auto take = document({"info", "told.rpz", name}).at("take");
+  EXPECT_EQ(take.at("fidelity"), "fine");
+  EXPECT_EQ(take.at("subject"), "Anna");
+  EXPECT_EQ(take.at("tags"), "gait");
+}
+
+TEST_F(IngestTest, AnotherUnitOrFrameRateIsToldOrReplaces) {
+  make_library("amc");
+  const std::string name = take_names().front();
+  const Outcome told = reprise({"ingest", "lib.rpz", "takes", "--fps", "60"});
+  EXPECT_NE(told.err.find("4 takes stored with another unit or frame rate"), std::string::npos)
+      << told.err;
+  EXPECT_EQ(document({"info", "lib.rpz", name}).at("take").at("frame_rate"), 120.0);
+  EXPECT_EQ(document({"ingest", "lib.rpz", "takes", "--fps", "60", "--replace"}).at("added").size(),
+            4U);
+  EXPECT_EQ(document({"info", "lib.rpz", name}).at("take").at("frame_rate"), 60.0);
+  EXPECT_EQ(document({"ingest", "lib.rpz", "takes", "--fps", "60"}).at("other_reading").size(), 0U);
+}
+
+// More folders, one in another, than may be open at a time.
+TEST_F(IngestTest, AFolderThatCannotBeSearchedToItsEndIsNoSuccess) {
+  make_library();
+  std::string deep = "takes";
+  for (int level = 0; level < 40; ++level) deep.append("/").append(std::to_string(level));
+  fs::create_directories(folder() / deep);
+  const Outcome outcome =
+      RunningCommand(folder(),
+                     {"sh", "-c", "ulimit -n 24; exec " REPRISE_COMMAND " ingest new.rpz takes"})
+          .wait();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder() / "new.rpz"));
+}
+
 TEST_F(IngestTest, ColumnsAreKnownInAnyCase) {
   make_library();
   const std::string name = take_names().front();

@@ -111,10 +111,10 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
   output({"synth", "takes", "--takes", "2", "--seconds", "2"});
   write_file(folder() / "takes/broken.bvh", "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 nonsense\n");
   const json first = document({"ingest", "lib.rpz", "takes"}, 3);
-  const json shape = {{"added", "array"},          {"skipped", "array"},
-                      {"other_fidelity", "array"}, {"other_metadata", "array"},
-                      {"rejected", "array"},       {"takes_not_found", "array"},
-                      {"seconds", "number"},       {"stats", stats_shape}};
+  const json shape = {
+      {"added", "array"},          {"skipped", "array"},       {"other_fidelity", "array"},
+      {"other_metadata", "array"}, {"other_reading", "array"}, {"takes_not_found", "array"},
+      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);

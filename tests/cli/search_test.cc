@@ -1,6 +1,8 @@
 // reprise search, and what info says of bodies.
 #include "cli/command_runner.h"
 
+namespace fs = std::filesystem;
+
 namespace reprise::cli {
 namespace {
 
@@ -82,6 +84,18 @@ TEST_F(SearchTest, WithoutTheCacheNothingIsWritten) {
   EXPECT_EQ(output({"search", "lib.rpz", "--id", take, "--cache"}), results);
   EXPECT_EQ(files_below(folder()).count("lib.rpz.features"), 1u);
   EXPECT_EQ(output({"search", "lib.rpz", "--id", take}), results);
+}
+
+TEST_F(SearchTest, ACacheOfTheSameFilesReadOtherwiseIsNotUsed) {
+  const std::vector<std::string> search = {"search", "lib.rpz", "--id", take_names()[0], "--json"};
+  std::vector<std::string> keeping = search;
+  keeping.emplace_back("--cache");
+  output(keeping);
+  fs::remove(folder() / "lib.rpz");
+  output({"ingest", "lib.rpz", "takes", "--unit-mm", "40", "--fidelity", "preview"});
+  const std::string with_cache = output(search);
+  fs::remove(folder() / "lib.rpz.features");
+  EXPECT_EQ(with_cache, output(search));
 }
 
 TEST_F(SearchTest, ACacheThatCannotBeWrittenIsNoHindrance) {

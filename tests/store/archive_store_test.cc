@@ -136,6 +136,20 @@ TEST_F(ArchiveStoreTest, AddingInManyStepsLeavesNoUnusedPages) {
   EXPECT_EQ(fs::file_size(path_), size);
 }
 
+TEST_F(ArchiveStoreTest, WhatIsHeldStaysForTakesThatCome) {
+  const Ground ground = make_sample(path_, 1);
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.hold_proportions(ground.proportions);
+  store.begin();
+  store.remove_take(store.takes({}).front().id);
+  store.commit();
+  store.begin();
+  add_sample(store, ground, 3);
+  store.commit();
+  EXPECT_EQ(store.takes({}).size(), 1u);
+  EXPECT_TRUE(store.check_structure().empty());
+}
+
 TEST_F(ArchiveStoreTest, OneWriterAtATime) {
   make_sample(path_, 1);
   const ArchiveStore writer = ArchiveStore::open_for_writing(path_);

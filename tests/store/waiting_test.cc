@@ -4,6 +4,7 @@
 #include "reprise/error.h"
 #include "store/database.h"
 #include "store/sample_store.h"
+#include "store/writer_lock.h"
 
 namespace reprise {
 namespace {
@@ -73,6 +74,45 @@ TEST_F(WaitingTest, CompactingTellsThatItWaitsForReadersAlone) {
   bool told = false;
   EXPECT_EQ(code_of_compacting([&] { return told = true; }), ErrorCode::locked);
   EXPECT_FALSE(told);
+}
+
+// As `mktemp` leaves one.
+TEST_F(WaitingTest, AnEmptyFileBecomesAnArchiveForOneWriterAndStays) {
+  std::ofstream(path_).close();
+  {
+    const ArchiveStore writer = ArchiveStore::open_for_writing(path_);
+    EXPECT_THROW(ArchiveStore::open_for_writing(path_), Error);
+  }
+  EXPECT_TRUE(ArchiveStore::open_for_reading(path_).takes({}).empty());
+}
+
+TEST_F(WaitingTest, AnEmptyFileThatAnotherProcessHasLockedIsLeftAlone) {
+  std::ofstream(path_).close();
+  const WriterLock other(path_, false);
+  EXPECT_THROW(ArchiveStore::open_for_writing(path_), Error);
+  EXPECT_EQ(fs::file_size(path_), 0u);
+}
+
+// What is not an archive is not ours to mend, either.
+TEST_F(WaitingTest, AnotherProgramsUnfinishedChangeIsLeftAlone) {
+  const fs::path theirs = folder_ / "theirs.db", left = folder_ / "left.db";
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(theirs.c_str(), &database), SQLITE_OK);
+  const auto run = [&](const char* sql) {
+    ASSERT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sql;
+  };
+  run("CREATE TABLE t(x); INSERT INTO t VALUES(zeroblob(20000)); PRAGMA cache_size=1; BEGIN; "
+      "UPDATE t SET x=randomblob(20000); PRAGMA cache_spill=1; INSERT INTO t "
+      "VALUES(randomblob(90000))");
+  for (const char* end : {"", "-journal"}) {
+    ASSERT_TRUE(fs::exists(theirs.string() + end));
+    fs::copy_file(theirs.string() + end, left.string() + end);
+  }
+  sqlite3_close(database);
+  const std::string before = read_bytes(left), journal = read_bytes(left.string() + "-journal");
+  EXPECT_THROW(ArchiveStore::open_for_reading(left), Error);
+  EXPECT_EQ(read_bytes(left), before);
+  EXPECT_EQ(read_bytes(left.string() + "-journal"), journal);
 }
 
 }  // namespace
