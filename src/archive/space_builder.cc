@@ -66,6 +66,10 @@ void SpaceBuilder::assign_proportions(std::int64_t skeleton, const Members& memb
 void SpaceBuilder::build_for_skeleton(const Members& members, SpaceTrainer& trainer) {
   const std::int64_t skeleton = skeleton_of(members);
   assign_proportions(skeleton, members);
+  if ((*takes_)[members.front()].outline.skeleton->joints.size() > TrainingConstants::most_joints) {
+    assign_space(plain_space(skeleton), members);
+    return;
+  }
   std::int64_t space = newest_space(skeleton);
   if (space == 0) {
     const Skeleton reference = reference_skeleton(store_, skeleton);

@@ -11,6 +11,9 @@
 namespace reprise {
 
 struct TrainingConstants {
+  /// Skeletons with more joints than this go without markers: axes of what moves with them take
+  /// time with the cube of their number, and no body has so many.
+  static constexpr std::size_t most_joints = 300;
   /// What the axes may leave of the allowed mean error (part of it, root mean square).
   static constexpr double residual_share = 0.32;
   /// What rounding the axes may add, as a part of it: `axis_share` between these two. Takes that

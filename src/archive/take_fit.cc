@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contacts/contact_choice.h"
+#include "model/written_channels.h"
 #include "quant/coarsest_step.h"
 
 namespace reprise {
@@ -68,7 +69,10 @@ class StepSearch {
   }
 
   ChannelMatrix decode(const CodedMotion& motion) const {
-    return motion_channels(space_, *take_.skeleton, {take_.frames(), take_.frame_rate}, motion);
+    ChannelMatrix channels =
+        motion_channels(space_, *take_.skeleton, {take_.frames(), take_.frame_rate}, motion);
+    clear_unwritten_channels(*take_.skeleton, take_.layout, channels);
+    return channels;
   }
 
   void find_switches() {

@@ -33,6 +33,7 @@ class AmcReader {
         if (frames_ > 0) lines_.reject("a keyword stands between frames: " + in_quotes(word));
         if (equal_ignoring_case(word, ":RADIANS")) take.layout.radians = true;
         if (equal_ignoring_case(word, ":DEGREES")) take.layout.radians = false;
+        if (equal_ignoring_case(word, ":SAMPLES-PER-SECOND")) frame_rate(next_word(rest));
       } else if (trimmed(rest).empty() && to_count(word)) {
         begin_frame(*to_count(word));
       } else {
@@ -45,6 +46,17 @@ class AmcReader {
   }
 
  private:
+  /// Few files say it; what is asked for comes before it.
+  void frame_rate(std::string_view word) {
+    const std::optional<double> rate = to_number(word);
+    if (!rate || !is_frame_rate(*rate)) {
+      lines_.reject(in_quotes(word) + " is no number of frames a second");
+    }
+    if (!take_->frame_rate_assumed) return;
+    take_->frame_rate = *rate;
+    take_->frame_rate_assumed = false;
+  }
+
   void begin_frame(long number) {
     if (number > most_frame_number) {
       lines_.reject("frame numbers end at " + std::to_string(most_frame_number));

@@ -52,6 +52,7 @@ class AsfReader {
       if (word.front() == ':') {
         section_ = std::string(word.substr(1));
         if (in_bone_) lines_.reject("a bone has no 'end'");
+        if (equal_ignoring_case(section_, "units")) units(next_word(rest), rest);
       } else if (equal_ignoring_case(section_, "units")) {
         units(word, rest);
       } else if (equal_ignoring_case(section_, "root")) {
@@ -82,21 +83,32 @@ class AsfReader {
     return result;
   }
 
+  /// Pairs of a word and a value, one a line or several.
   void units(std::string_view word, std::string_view rest) {
-    if (equal_ignoring_case(word, "length")) {
-      const double length = number(rest, "'length'");
-      if (!(length > 0)) lines_.reject("'length' must be greater than 0");
-      if (length * InputLimits::magnitude < 1) {
-        lines_.reject("a 'length' of " + std::to_string(length) + " cannot be meant",
-                      "most files have 0.45 or 1");
+    for (; !word.empty(); word = next_word(rest)) {
+      if (equal_ignoring_case(word, "length")) {
+        length_unit(number(rest, "'length'"));
+      } else if (equal_ignoring_case(word, "angle")) {
+        angle_unit(next_word(rest));
+      } else {
+        next_word(rest);
       }
-      skeleton_.millimetres_per_unit = millimetres_per_inch / length;
-    } else if (equal_ignoring_case(word, "angle")) {
-      const std::string_view unit = next_word(rest);
-      radians_ = equal_ignoring_case(unit.substr(0, 3), "rad");
-      if (!radians_ && !equal_ignoring_case(unit.substr(0, 3), "deg")) {
-        lines_.reject("'angle' is deg or rad, not " + in_quotes(unit));
-      }
+    }
+  }
+
+  void length_unit(double length) {
+    if (!(length > 0)) lines_.reject("'length' must be greater than 0");
+    if (length * InputLimits::magnitude < 1) {
+      lines_.reject("a 'length' of " + std::to_string(length) + " cannot be meant",
+                    "most files have 0.45 or 1");
+    }
+    skeleton_.millimetres_per_unit = millimetres_per_inch / length;
+  }
+
+  void angle_unit(std::string_view unit) {
+    radians_ = equal_ignoring_case(unit.substr(0, 3), "rad");
+    if (!radians_ && !equal_ignoring_case(unit.substr(0, 3), "deg")) {
+      lines_.reject("'angle' is deg or rad, not " + in_quotes(unit));
     }
   }
 

@@ -13,9 +13,9 @@ namespace {
 
 /// What a frame time of 0 is taken for, as viewers do.
 constexpr double assumed_frame_rate = 60.0;
-/// Frame times in milliseconds of up to 200 frames a second are beyond this. As seconds they would
-/// make days of a minute, and samples of it at even times without end.
-constexpr double least_frame_rate = 0.2;
+/// Frame times in milliseconds of up to 1,000 frames a second are beyond this. As seconds they
+/// would make days of a minute, and samples of it at even times without end.
+constexpr double least_frame_rate = 1.0;
 
 /// The rest of a line after `keyword`, which may be followed by a colon; nothing if it is another
 /// line.

@@ -1,4 +1,5 @@
 // Takes as text, in the format of their source and with its header.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -26,9 +27,20 @@ void append_value(std::string& text, double value, int decimals) {
   text += word;
 }
 
+/// What rounding may move a joint by is to be the same in every unit. Bodies are as large as their
+/// unit, so that turns need as many more digits as lengths; a radian is two digits of degrees.
+int fitting_decimals(const Take& take) {
+  constexpr double millimetres_at_six = 100;
+  constexpr int usual = 6, of_radians = 2, most = 15;
+  const double larger = take.skeleton->millimetres_per_unit / millimetres_at_six;
+  const int more = larger > 1 ? static_cast<int>(std::ceil(std::log10(larger))) : 0;
+  return std::min(most, usual + more + (take.layout.radians ? of_radians : 0));
+}
+
 }  // namespace
 
-std::string write_bvh(const Take& take, int decimals) {
+std::string write_bvh(const Take& take, std::optional<int> asked_decimals) {
+  const int decimals = asked_decimals.value_or(fitting_decimals(take));
   std::string text = take.skeleton->source_text;
   const std::string end = line_end_of(text);
   if (!text.empty() && text.back() != '\n' && text.back() != '\r') text += end;
@@ -45,7 +57,8 @@ std::string write_bvh(const Take& take, int decimals) {
   return text;
 }
 
-std::string write_amc(const Take& take, int decimals) {
+std::string write_amc(const Take& take, std::optional<int> asked_decimals) {
+  const int decimals = asked_decimals.value_or(fitting_decimals(take));
   const TakeLayout& layout = take.layout;
   std::string text = layout.amc_header;
   const std::string end = line_end_of(text);
@@ -68,7 +81,7 @@ std::string write_amc(const Take& take, int decimals) {
   return text;
 }
 
-std::string write_motion(const Take& take, int decimals) {
+std::string write_motion(const Take& take, std::optional<int> decimals) {
   return take.skeleton->format == MotionFormat::bvh ? write_bvh(take, decimals)
                                                     : write_amc(take, decimals);
 }

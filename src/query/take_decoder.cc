@@ -6,6 +6,7 @@
 
 #include "exact/text_codec.h"
 #include "model/free_memory.h"
+#include "model/written_channels.h"
 #include "quant/take_codec.h"
 #include "refine/coarse_channels.h"
 #include "refine/coded_channels.h"
@@ -162,6 +163,7 @@ Take decode_layer(const StoredLayer& stored, std::string* text) {
   check_frames(stored.take, *take.skeleton);
   check_memory(stored, *take.skeleton);
   take.channels = channels_of(stored, take, text);
+  clear_unwritten_channels(*take.skeleton, take.layout, take.channels);
   if (take.frames() != stored.take.frames) {
     throw Error(ErrorCode::damaged, "the archive is damaged: take '" + take.name +
                                         "' has another number of frames than was stored");

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "model/written_channels.h"
 #include "quant/catmull_rom.h"
 #include "refine/knot_rounding.h"
 
@@ -43,6 +44,7 @@ ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
       sources_(take.frames(), take.channels.cols()),
       decoded_(take.frames(), take.channels.cols()),
       bodies_(take.skeleton->joints.size()),
+      written_(written_joints(*take.skeleton, take.layout)),
       placement_(take) {
   const Index frames = take.frames();
   for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -144,7 +146,7 @@ void ChannelQuantiser::quantise_joint(std::size_t j, std::size_t place, CodedCha
   for (const int slot : slots_outwards(joint)) {
     placement_.come_to(slot);
     expect(place);
-    quantise_channel(place, coded);
+    quantise_channel(place, written_[j], coded);
     placement_.apply(slot, place, decoded_.col(static_cast<Index>(place)));
     ++place;
   }
@@ -167,11 +169,13 @@ void ChannelQuantiser::expect(std::size_t place) {
   }
 }
 
-void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded) {
+void ChannelQuantiser::quantise_channel(std::size_t i, bool written, CodedChannels& coded) {
   Trajectory& channel = channels_[i];
   const auto place = static_cast<Index>(i);
   const auto source = sources_.col(place);
   MatrixXd column = source - channel.residual.cast<double>();
+  // It has no numbers in a file that could make up for others.
+  if (!written) column = source;
   NestedKnots::from_frames(column, coded.shape.levels);
   if (coded.steps.base[i] < 0 || !round_knots(column, i, coded)) store(i, coded);
   decoded_.col(place) = coded.trajectory(i);

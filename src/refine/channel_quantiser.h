@@ -54,7 +54,7 @@ class ChannelQuantiser {
   void store(std::size_t place, CodedChannels& coded) const;
   void quantise_joint(std::size_t joint, std::size_t first_place, CodedChannels& coded);
   void expect(std::size_t place);
-  void quantise_channel(std::size_t place, CodedChannels& coded);
+  void quantise_channel(std::size_t place, bool written, CodedChannels& coded);
 
   const Take& take_;
   std::vector<int> order_, parents_;
@@ -62,6 +62,7 @@ class ChannelQuantiser {
   std::vector<Trajectory> channels_;
   Eigen::MatrixXd sources_, decoded_;  ///< frames x channels in coding order
   std::vector<PlacedJoint> bodies_;
+  std::vector<bool> written_;  ///< of each joint: a file has numbers for its channels
   JointPlacement placement_;
   std::optional<CodedChannels> done_;  ///< what `quantise` made last
 };

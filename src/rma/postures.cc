@@ -12,6 +12,9 @@
 namespace reprise {
 namespace {
 
+/// Axes of postures take time with the cube of this.
+constexpr std::size_t most_posture_joints = 300;
+
 /// The root joint and all below it: others do not go where it goes.
 std::vector<std::size_t> joints_under(const Skeleton& skeleton, int root) {
   std::vector<bool> under(skeleton.joints.size(), false);
@@ -23,6 +26,16 @@ std::vector<std::size_t> joints_under(const Skeleton& skeleton, int root) {
     if (under[j]) list.push_back(j);
   }
   return list;
+}
+
+/// Of very many joints some, spread evenly, say how a body stands.
+std::vector<std::size_t> some_of(const std::vector<std::size_t>& joints) {
+  if (joints.size() <= most_posture_joints) return joints;
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < most_posture_joints; ++i) {
+    some.push_back(joints[i * joints.size() / most_posture_joints]);
+  }
+  return some;
 }
 
 /// Joint places of one frame, seen from the ground below the root joint.
@@ -50,7 +63,7 @@ Eigen::RowVectorXf posture_of_frame(const Take& take, const RootAxis& root,
 PostureMatrix aligned_postures(const Take& take, const RootAxis& root, double rate) {
   constexpr double rounding = 1e-6;
   const long frames = take.frames();
-  const std::vector<std::size_t> moving = joints_under(*take.skeleton, root.joint);
+  const std::vector<std::size_t> moving = some_of(joints_under(*take.skeleton, root.joint));
   const auto coordinates = 3 * static_cast<Eigen::Index>(moving.size());
   if (frames == 0) return PostureMatrix(0, coordinates);
   const double step = take.frame_rate / rate;

@@ -172,6 +172,29 @@ TEST_F(ExtractTest, WhatIsWholeComesOutOfADamagedArchive) {
   EXPECT_GT(in_part, 0u);
 }
 
+// An AMC need not have a line for each bone: those it leaves out cannot make up for others.
+TEST_F(ExtractTest, BoundsHoldInTheFileOfAnAmcThatLeavesBonesOut) {
+  output({"synth", "in", "--takes", "2", "--seconds", "2", "--subjects", "1", "--format", "amc"});
+  std::string text;
+  for (const std::string& line : lines_of(read_file(folder() / "in/s01/s01_01.amc"))) {
+    if (!line.starts_with("lfemur ") && !line.starts_with("rhand ")) text += line + "\n";
+  }
+  write_file(folder() / "in/s01/s01_01.amc", text);
+  for (const auto& [fidelity, limit] :
+       {std::pair{"preview", 20.0}, {"standard", 10.0}, {"fine", 1.0}}) {
+    const std::string archive = std::string(fidelity) + ".rpz";
+    output({"ingest", archive, "in", "--fidelity", fidelity});
+    output({"extract", archive, "s01_01", "-o", "out.amc", "--overwrite"});
+    const auto apart =
+        document({"compare", "in/s01/s01_01.amc", "out.amc", "--asf", "in/s01/s01.asf"});
+    const char* measure = fidelity == std::string("preview") ? "mean_mm" : "max_mm";
+    EXPECT_LE(apart.at(measure).get<double>(), limit) << fidelity;
+    const auto told = document({"info", archive, "s01_01"}).at("take").at("error_mm");
+    EXPECT_NEAR(apart.at("max_mm").get<double>(), told.at("max").get<double>(), 0.01);
+    output({"verify", archive, "--against", "in"});
+  }
+}
+
 TEST_F(ExtractTest, ComparisonSaysWhatDiffers) {
   const auto bvh = [](const std::string& joint, const std::string& time) {
     return "HIERARCHY\nROOT " + joint +

@@ -72,6 +72,25 @@ TEST_F(MalformedTest, EachAmcOfABadSkeletonIsNamed) {
   }
 }
 
+// Axes of all that it has would take hours, and more memory than there is.
+TEST_F(MalformedTest, ASkeletonOfVeryManyJointsHoldsNobodyUp) {
+  constexpr int joints = 1500;
+  std::string text =
+      "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+  std::string frame = "1 2 3";
+  for (int j = 0; j < joints; ++j) {
+    text.append("JOINT j").append(std::to_string(j));
+    text += "\n{\nOFFSET 1 2 3\nCHANNELS 3 Zrotation Xrotation Yrotation\n}\n";
+    frame += " 4 5 6";
+  }
+  text += "}\nMOTION\nFrames: 2\nFrame Time: 0.01\n" + frame + "\n" + frame + "\n";
+  output({"synth", "in", "--takes", "1", "--seconds", "1", "--subjects", "1"});
+  write_file(folder() / "in/many.bvh", text);
+  output({"ingest", "lib.rpz", "in"});
+  output({"verify", "lib.rpz", "--against", "in"});
+  EXPECT_EQ(take_names().size(), 2U);
+}
+
 TEST_F(MalformedTest, CountsAndTimesThatAreNoneAreQuoted) {
   const auto why_of = [&](const std::string& frames, const std::string& time) {
     write_file(folder() / "in/a.bvh",

@@ -122,6 +122,55 @@ TEST(Facts, FrameTimeKeepsItsText) {
             std::string::npos);
 }
 
+TEST(Facts, MillisecondsAreNoSeconds) {
+  EXPECT_EQ(read_bvh(replaced(plain_bvh(), "0.0083333", "1"), "s").frame_rate, 1.0);
+  for (const char* milliseconds : {"4.1667", "8.3333", "33.3333"}) {
+    EXPECT_THROW(read_bvh(replaced(plain_bvh(), "0.0083333", milliseconds), "s"), Error);
+  }
+}
+
+TEST(Facts, AnAmcMaySayItsRate) {
+  const auto skeleton = std::make_shared<Skeleton>(read_asf(plain_asf(), "s.asf"));
+  const std::string text = replaced(plain_amc(), ":DEGREES", ":DEGREES\n:SAMPLES-PER-SECOND 60");
+  const Take said = read_amc(text, "s.amc", skeleton);
+  EXPECT_EQ(said.frame_rate, 60.0);
+  EXPECT_FALSE(said.frame_rate_assumed);
+  EXPECT_EQ(read_amc(text, "s.amc", skeleton, 30.0).frame_rate, 30.0);
+  EXPECT_TRUE(asf_sample().frame_rate_assumed);
+  EXPECT_THROW(read_amc(replaced(text, "SECOND 60", "SECOND -1"), "s.amc", skeleton), Error);
+}
+
+TEST(Facts, UnitsMayStandOnOneLine) {
+  const Skeleton usual = read_asf(plain_asf(), "s.asf");
+  const std::string lines = ":units\n  mass 1\n  length 0.45\n  angle deg\n";
+  for (const char* line :
+       {":units mass 1 length 0.45 angle deg\n", ":units\n mass 1 length 0.45 angle deg\n"}) {
+    const Skeleton skeleton = read_asf(replaced(plain_asf(), lines, line), "s.asf");
+    EXPECT_EQ(skeleton.millimetres_per_unit, usual.millimetres_per_unit);
+  }
+}
+
+// Six decimals of a kilometre are a millimetre, and of a radian 0.00006 degrees.
+TEST(Facts, LargeUnitsAndRadiansHaveMoreDecimals) {
+  Take take = read_bvh(plain_bvh(), "s.bvh", 1e6);
+  take.channels.array() += 1.0 / 3;
+  const Take again = read_bvh(write_bvh(take), "s.bvh", 1e6);
+  EXPECT_LT((again.channels - take.channels).cwiseAbs().maxCoeff() * 1e6, 1e-3 / 15);
+  EXPECT_NE(write_bvh(sample()).find(" -179.500000 "), std::string::npos);
+
+  Take radians = asf_sample();
+  radians.layout.radians = true;
+  radians.layout.amc_header = ":RADIANS\n";
+  for (const int joint : radians.layout.amc_joints) {
+    const Joint& written = radians.skeleton->joints[static_cast<std::size_t>(joint)];
+    radians.channels
+        .middleCols(written.first_channel, static_cast<Eigen::Index>(written.channels.size()))
+        .array() += 1.0 / 3;
+  }
+  const Take read = read_amc(write_amc(radians), "s.amc", radians.skeleton);
+  EXPECT_LT((read.channels - radians.channels).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST(Facts, LineEndsNamesAndEmptyJoints) {
   for (const char* end : {"\n", "\r\n", "\r"}) {
     const Take take = read_bvh(with_line_ends(plain_bvh(), end), "s.bvh");

@@ -67,10 +67,11 @@ Take read_motion_file(const std::filesystem::path& path, const ReadOptions& opti
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// The text of a take in its own format, with the header of its source (frame count as in the take)
-/// and numbers with `decimals` digits after the point.
-std::string write_bvh(const Take& take, int decimals = 6);
-std::string write_amc(const Take& take, int decimals = 6);
+/// and numbers with `decimals` digits after the point: else six, and more where the unit is so
+/// large, or rotations are in radians, that six would move joints by more than 0.0001 mm or so.
+std::string write_bvh(const Take& take, std::optional<int> decimals = std::nullopt);
+std::string write_amc(const Take& take, std::optional<int> decimals = std::nullopt);
 /// write_bvh or write_amc, by the skeleton's format.
-std::string write_motion(const Take& take, int decimals = 6);
+std::string write_motion(const Take& take, std::optional<int> decimals = std::nullopt);
 
 }  // namespace reprise
