@@ -229,7 +229,8 @@ Archive::Selection Archive::find(const std::string& id) const {
       clip = candidate;
     }
   }
-  if (!take || clip) {
+  // A whole clip ID is found by the index alone, however many takes there are.
+  if (!take || (clip && id.size() < id_digits)) {
     std::vector<std::string> names = names_ending_in(impl_->store, id);
     if (clip && !names.empty()) {
       names.insert(names.begin(), clip->id);

@@ -81,6 +81,7 @@ TEST_F(IdsTest, WhatMayBeAClipOrTheEndOfANameIsAmbiguous) {
   const Outcome outcome = reprise({"info", "lib.rpz", start});
   EXPECT_EQ(outcome.exit_code, 7);
   EXPECT_NE(outcome.err.find(id + ", s01/x" + start), std::string::npos) << outcome.err;
+  EXPECT_EQ(reprise({"info", "lib.rpz", id}).exit_code, 0);
 }
 
 TEST_F(IdsTest, TwoFilesAreNeverOneStoredTake) {
