@@ -48,11 +48,11 @@ class AmcReader {
  private:
   /// Few files say it; what is asked for comes before it.
   void frame_rate(std::string_view word) {
+    if (!take_->frame_rate_assumed) return;
     const std::optional<double> rate = to_number(word);
     if (!rate || !is_frame_rate(*rate)) {
-      lines_.reject(in_quotes(word) + " is no number of frames a second");
+      lines_.reject(in_quotes(word) + " is no number of frames a second", "give one with --fps");
     }
-    if (!take_->frame_rate_assumed) return;
     take_->frame_rate = *rate;
     take_->frame_rate_assumed = false;
   }
