@@ -34,13 +34,21 @@ struct FidelityLimits {
   static constexpr double preview_mean_mm = 20.0;  ///< mean joint error of a take
   static constexpr double standard_mm = 10.0;      ///< every joint in every frame
   static constexpr double fine_mm = 1.0;           ///< the same
+  static constexpr double standard_deg = 10.0;     ///< every joint's world orientation
+  static constexpr double fine_deg = 1.0;          ///< the same
   static constexpr double least_bound_mm = 0.05, greatest_bound_mm = 100.0;
+  static constexpr double least_bound_deg = 0.05, greatest_bound_deg = 180.0;
 };
 
 struct Fidelity {
   FidelityTier tier = FidelityTier::standard;
   /// preview: of the take's mean joint error; exact: 0; others: of every joint in every frame.
   double limit_mm = FidelityLimits::standard_mm;
+  /// preview and exact: 0; others: of every joint's world orientation in every frame, and of how
+  /// much more than the source's a joint turns against its parent from one frame to the next.
+  double limit_deg = FidelityLimits::standard_deg;
+
+  bool operator==(const Fidelity&) const = default;
 };
 
 /// A tier with its own limit; `bound` has none.
@@ -68,7 +76,9 @@ struct TakeInfo {
   std::uint64_t raw_bytes = 0;   ///< 4 x channels x frames
   std::uint64_t text_bytes = 0;  ///< the source file
   std::uint64_t payload_bytes = 0;
-  PositionErrors error_mm;    ///< as measured at ingest on the decoded take
+  PositionErrors error_mm;      ///< as measured at ingest on the decoded take
+  RotationErrors rotation_deg;  ///< the same
+  JointAt worst_place, worst_turn;
   std::string source_digest;  ///< hexadecimal digest of the source file's bytes
 
   double seconds() const { return static_cast<double>(frames) / frame_rate; }
@@ -120,7 +130,9 @@ struct ArchiveStats {
   std::uint64_t payload_bytes = 0;
   std::map<std::string, std::uint64_t> bytes;  ///< parts of archive_bytes; they add up
   PositionErrors error_mm;
-  std::map<std::string, std::size_t> fidelity;  ///< takes a tier
+  RotationErrors rotation_deg;
+  std::string worst_place_take, worst_turn_take;  ///< the takes that the greatest errors are in
+  std::map<std::string, std::size_t> fidelity;    ///< takes a tier
 };
 
 struct ArchiveInfo {
@@ -144,8 +156,9 @@ struct VerifyReport {
   std::size_t clips = 0;
   std::vector<Damage> damaged;
   std::size_t measured = 0;  ///< takes that `error_mm` is of
-  PositionErrors
-      error_mm;  ///< measured against the sources where `against` was given, else as stored
+  /// Measured against the sources where `against` was given, else as stored.
+  PositionErrors error_mm;
+  RotationErrors rotation_deg;
 };
 
 struct Progress {

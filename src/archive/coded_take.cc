@@ -36,7 +36,8 @@ TakeRecord make_record(const FreshTake& fresh, const Take& take, const SpaceAssi
   TakeRecord record;
   record.layers = std::move(coded.layers);
   record.spent = std::move(coded.spent);
-  record.error_quantiles = sketch_distances(coded.distances);
+  record.error_quantiles = sketch_distances(coded.distances.places);
+  record.turn_quantiles = sketch_distances(coded.distances.turns);
   record.proportions = assignment.proportions;
   record.space = assignment.space_id;
   TakeInfo& info = record.info;
@@ -47,7 +48,10 @@ TakeRecord make_record(const FreshTake& fresh, const Take& take, const SpaceAssi
   info.frames = take.frames();
   info.fidelity = options.fidelity;
   info.text_bytes = fresh.outline.text_bytes;
-  info.error_mm = coded.errors;
+  info.error_mm = coded.errors.places;
+  info.rotation_deg = coded.errors.turns;
+  info.worst_place = coded.errors.worst_place;
+  info.worst_turn = coded.errors.worst_turn;
   info.source_digest = fresh.outline.source_digest;
   return record;
 }
@@ -71,15 +75,16 @@ CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, c
   CodedTake coded;
   try {
     const auto [take, text] = read_source(fresh, options.read);
+    const PreparedTake prepared = prepare_take(take);
     FittedTake fitted = assignment.fitted
                             ? *assignment.fitted
-                            : fit_take(assignment.space->space, assignment.space->model, take,
+                            : fit_take(assignment.space->space, assignment.space->model, prepared,
                                        fit_options(options));
     coded.kept = fitted.kept;
     if (!coded.kept) return coded;
-    coded.record =
-        make_record(fresh, take, assignment, options,
-                    make_layers(options, *assignment.space, take, text, std::move(fitted)));
+    coded.record = make_record(
+        fresh, take, assignment, options,
+        make_layers(options, *assignment.space, {take, prepared, text}, std::move(fitted)));
     coded.clips = clips_of(fresh, take, plan);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;

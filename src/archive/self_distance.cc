@@ -69,7 +69,7 @@ SelfDistance self_distance(const Archive& archive, const TakeInfo& info) {
   constants.least_near_per_s = 0;  // near pairs are minima of the plot, not windows
   constants.next_near_s = 0;
   constants.rate = std::min(constants.rate, most_samples / std::max(take.seconds(), 1.0));
-  const LayoutChoices layout = choose_layout(*take.skeleton, layout_evidence(take));
+  const LayoutChoices layout = choose_layout(*take.skeleton, layout_evidence(prepare_take(take)));
   const PostureLibrary library(
       {aligned_postures(take, {layout.root_joint, layout.up_axis}, constants.rate)}, constants);
   const PostureMatrix& projected = library.projected.front();

@@ -119,7 +119,7 @@ SpaceBuilder::Members SpaceBuilder::members_outside(const Members& members) cons
         const SpaceAssignment& assignment = assignments_.at(fresh.file.name);
         if (assignment.fitted) return false;
         const CoefficientSpace& space = assignment.space->space;
-        const Take take = read_again(fresh, options_.read);
+        const Take take = read_prepared(fresh, options_.read).take;
         return residual_mm(space, mark_take(space.layout, take).markers) > most;
       },
       [&](std::size_t m, bool unfits) {
@@ -158,7 +158,7 @@ std::int64_t SpaceBuilder::plain_space(std::int64_t skeleton) {
   space.variance.resize(0);
   space.start.assign(choices.active.size(), 0.0);
   const SpaceRecord record{0, skeleton, 0,
-                           pack_space(encode_space(space, {}), KnotModel().prior(false))};
+                           pack_space({}, encode_space(space, {}), KnotModel().prior(false))};
   for (const std::int64_t id : store_.spaces_of_skeleton(skeleton)) {
     if (store_.space(id).data == record.data) return id;
   }

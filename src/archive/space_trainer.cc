@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "archive/parallel.h"
+#include "quant/known_values.h"
 
 namespace reprise {
 namespace {
@@ -33,12 +34,14 @@ Bytes SpaceTrainer::train(const Skeleton& reference, const Members& members) {
   for (const std::size_t i : training) evidence.add(takes_[i].outline.evidence);
   MarkerLayout layout = make_marker_layout(reference, choose_layout(reference, evidence));
   const MarkerMoments moments = moments_of(layout, training, false);
-  const CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
+  CoefficientSpace space = train_space(std::move(layout), moments, evidence, mean_mm);
+  space.known = evidence.values.known_values(static_cast<std::size_t>(reference.channel_count));
   const auto bytes = encode_space(space, precision_for(space, 0, members));
   // From here on everything is as the decoder sees it.
-  const CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
+  CoefficientSpace decoded = decode_space(bytes, reference, nullptr);
+  set_known_values(space.known, decoded);
   const auto prior = train_prior(decoded, training, members.size());
-  return pack_space(bytes, prior);
+  return pack_space(encode_known_values(space.known), bytes, prior);
 }
 
 Bytes SpaceTrainer::extend(const CodedSpace& base, const Members& unfit) {
@@ -50,7 +53,7 @@ Bytes SpaceTrainer::extend(const CodedSpace& base, const Members& unfit) {
   const auto bytes = encode_extension(space, known, precision_for(space, known, unfit));
   // From here on everything is as the decoder sees it.
   const CoefficientSpace decoded = decode_space(bytes, base.space.layout.reference, &base.space);
-  return pack_space(bytes, train_prior(decoded, unfit, unfit.size()));
+  return pack_space({}, bytes, train_prior(decoded, unfit, unfit.size()));
 }
 
 MarkerMoments SpaceTrainer::moments_of(const MarkerLayout& layout, const Members& members,
@@ -60,7 +63,7 @@ MarkerMoments SpaceTrainer::moments_of(const MarkerLayout& layout, const Members
       members.size(), options_.jobs,
       [&](std::size_t m) {
         MarkerMoments own;
-        const Take take = read_again(takes_[members[m]], options_.read);
+        const Take take = read_prepared(takes_[members[m]], options_.read).take;
         own.add(every_frame ? mark_take(layout, take).markers : sampled_markers(layout, take));
         return own;
       },
@@ -105,8 +108,8 @@ std::vector<std::uint8_t> SpaceTrainer::train_prior(const CoefficientSpace& spac
   produce_in_order(
       chosen.size(), options_.jobs,
       [&](std::size_t c) {
-        const Take take = read_again(takes_[chosen[c]], options_.read);
-        return fit_take(space, model, take, fit_options(options_));
+        const PreparedTake prepared = read_prepared(takes_[chosen[c]], options_.read);
+        return fit_take(space, model, prepared, fit_options(options_));
       },
       [&](std::size_t c, FittedTake fitted) {
         if (fitted.kept) fits_.emplace(chosen[c], std::move(fitted));
@@ -123,11 +126,12 @@ SpaceTrainer::MeasuredCurves SpaceTrainer::measure_curves(const CoefficientSpace
   produce_in_order(
       members.size(), options_.jobs,
       [&](std::size_t m) {
-        const Take take = read_again(takes_[members[m]], options_.read);
+        const PreparedTake prepared = read_prepared(takes_[members[m]], options_.read);
+        const Take& take = prepared.take;
         const MarkedTake marked = mark_take(space.layout, take);
         return TakeCurves{{take.frames(), take.frame_rate},
                           marked.root.tumbles,
-                          to_trajectories(space, take, marked)};
+                          to_trajectories(space, take, marked, prepared.header.constants)};
       },
       [&](std::size_t, TakeCurves one) {
         add_scales(space, one, measured.scales);

@@ -2,10 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace reprise {
 
 using Eigen::Index;
+
+void ConstantValues::add(const TakeHeader& header) {
+  for (std::size_t c = 0; c < header.constants.size(); ++c) {
+    if (header.constants[c]) values_.emplace_back(c, *header.constants[c]);
+    if (!header.first_frame.empty()) values_.emplace_back(c, header.first_frame[c]);
+  }
+}
+
+void ConstantValues::add(const ConstantValues& other) {
+  values_.insert(values_.end(), other.values_.begin(), other.values_.end());
+}
+
+KnownValues ConstantValues::known_values(std::size_t channels) const {
+  std::vector<std::map<double, long>> counts(channels);
+  for (const auto& [channel, value] : values_) ++counts[channel][value];
+  KnownValues known;
+  for (const auto& values : counts) {
+    std::vector<std::pair<long, double>> by_count;
+    for (const auto& [value, count] : values) {
+      if (count > 1) by_count.emplace_back(-count, value);
+    }
+    std::ranges::sort(by_count);
+    known.emplace_back();
+    for (const auto& [count, value] : by_count) {
+      if (known.back().size() < KnownValueLimits::values) known.back().push_back(value);
+    }
+  }
+  return known;
+}
 
 void LayoutEvidence::add(const LayoutEvidence& other) {
   if (active.empty()) {
@@ -20,11 +50,14 @@ void LayoutEvidence::add(const LayoutEvidence& other) {
     for (int a = 0; a < 3; ++a) upward[j][a] += other.upward[j][a];
   }
   first_frames.insert(first_frames.end(), other.first_frames.begin(), other.first_frames.end());
+  values.add(other.values);
 }
 
-LayoutEvidence layout_evidence(const Take& take) {
+LayoutEvidence layout_evidence(const PreparedTake& prepared) {
+  const Take& take = prepared.take;
   const Skeleton& skeleton = *take.skeleton;
   LayoutEvidence evidence;
+  evidence.values.add(prepared.header);
   if (take.frames() > 0) {
     const auto first = take.channels.row(0);
     evidence.first_frames.emplace_back(first.begin(), first.end());

@@ -29,6 +29,19 @@ struct TrainingConstants {
   static constexpr double least_change = 1e-3;
 };
 
+/// Which values channels have where they do not move.
+class ConstantValues {
+ public:
+  /// Those of a take: its constants, and its first frame where that is apart.
+  void add(const TakeHeader& header);
+  void add(const ConstantValues& other);
+  /// Values that several takes have.
+  KnownValues known_values(std::size_t channels) const;
+
+ private:
+  std::vector<std::pair<std::size_t, double>> values_;  ///< of a channel, one for each take
+};
+
 /// What takes say about the layout. Takes are added up in a fixed order.
 struct LayoutEvidence {
   std::vector<bool> active;
@@ -36,10 +49,11 @@ struct LayoutEvidence {
   std::vector<std::array<double, 3>>
       upward;  ///< of each joint: sums of the height of its three axes
   std::vector<std::vector<double>> first_frames;  ///< of each take that has frames
+  ConstantValues values;
 
   void add(const LayoutEvidence& other);
 };
-LayoutEvidence layout_evidence(const Take& take);
+LayoutEvidence layout_evidence(const PreparedTake& prepared);
 LayoutChoices choose_layout(const Skeleton& skeleton, const LayoutEvidence& evidence);
 
 /// Every n-th frame of a take as markers.

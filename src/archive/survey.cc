@@ -61,8 +61,7 @@ class Deciding {
   void decide_again(FreshTake fresh, const TakeRecord& stored, const TakeMetadata* row) {
     const std::string& name = stored.info.name;
     const bool same_source = stored.info.source_digest == fresh.outline.source_digest;
-    const bool same_fidelity = stored.info.fidelity.tier == options_.fidelity.tier &&
-                               stored.info.fidelity.limit_mm == options_.fidelity.limit_mm;
+    const bool same_fidelity = stored.info.fidelity == options_.fidelity;
     const bool same_metadata = told_by(row, stored.info);
     const bool same_reading = read_as_asked(fresh.outline, stored);
     const bool same = same_fidelity && same_metadata && same_reading;

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "contacts/contact_choice.h"
-#include "model/written_channels.h"
 #include "quant/coarsest_step.h"
 
 namespace reprise {
@@ -14,17 +13,18 @@ namespace {
 /// Codes one take at one step after another.
 class StepSearch {
  public:
-  StepSearch(const CoefficientSpace& space, const KnotModel& model, const Take& take,
+  StepSearch(const CoefficientSpace& space, const KnotModel& model, const PreparedTake& prepared,
              const FitOptions& options)
       : space_(space),
         model_(model),
-        take_(take),
+        take_(prepared.take),
+        constants_(prepared.header.constants),
         allowed_(options.mean_mm * (1.0 - FitConstants::margin)),
         holds_feet_(options.contacts),
-        positions_(joint_positions(*take.skeleton, take.channels)) {
-    MarkedTake marked = mark_take(space.layout, take);
-    TrajectoryMatrix trajectories = to_trajectories(space, take, marked);
-    choose_kinds({take.frames(), take.frame_rate}, marked.root.tumbles, trajectories);
+        positions_(joint_positions(*take_.skeleton, take_.channels)) {
+    MarkedTake marked = mark_take(space.layout, take_);
+    TrajectoryMatrix trajectories = to_trajectories(space, take_, marked, constants_);
+    choose_kinds({take_.frames(), take_.frame_rate}, marked.root.tumbles, trajectories);
     find_switches();
   }
 
@@ -45,7 +45,7 @@ class StepSearch {
                           step};
     const int found = coarsest_step(range, allowed_, [&](int index) {
       FittedTake tried = measure(index);
-      const double mean = tried.errors.mean;
+      const double mean = tried.mean_mm;
       if (mean <= allowed_) best = std::move(tried);
       return mean;
     });
@@ -69,10 +69,8 @@ class StepSearch {
   }
 
   ChannelMatrix decode(const CodedMotion& motion) const {
-    ChannelMatrix channels =
-        motion_channels(space_, *take_.skeleton, {take_.frames(), take_.frame_rate}, motion);
-    clear_unwritten_channels(*take_.skeleton, take_.layout, channels);
-    return channels;
+    return motion_channels(space_, *take_.skeleton, constants_, {take_.frames(), take_.frame_rate},
+                           motion);
   }
 
   void find_switches() {
@@ -101,17 +99,17 @@ class StepSearch {
     tried.motion = {knots_.tumbles, step, kinds_, switches_, quantise(model_, knots_, step).knots,
                     contacts_};
     const PositionMatrix decoded = joint_positions(*take_.skeleton, decode(tried.motion));
-    tried.distances = joint_distances(positions_, decoded);
+    const std::vector<float> distances = joint_distances(positions_, decoded);
     double sum = 0;
-    for (const float distance : tried.distances) sum += distance;
-    tried.errors.mean =
-        tried.distances.empty() ? 0 : sum / static_cast<double>(tried.distances.size());
+    for (const float distance : distances) sum += distance;
+    tried.mean_mm = distances.empty() ? 0 : sum / static_cast<double>(distances.size());
     return tried;
   }
 
   const CoefficientSpace& space_;
   const KnotModel& model_;
   const Take& take_;
+  const ChannelConstants& constants_;
   double allowed_;
   bool holds_feet_;
   PositionMatrix positions_;
@@ -146,11 +144,9 @@ FitOptions fit_options(const IngestOptions& options) {
   return {coarse_mean_mm(options.fidelity), options.contacts};
 }
 
-FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
-                    const FitOptions& options) {
-  FittedTake fitted = StepSearch(space, model, take, options).run();
-  if (fitted.kept) fitted.errors = summarise_distances(fitted.distances);
-  return fitted;
+FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model,
+                    const PreparedTake& prepared, const FitOptions& options) {
+  return StepSearch(space, model, prepared, options).run();
 }
 
 }  // namespace reprise

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "quant/take_codec.h"
+#include "quant/take_header.h"
 #include "reprise/archive.h"
 #include "reprise/model/kinematics.h"
 
@@ -20,9 +21,8 @@ struct FitConstants {
 struct FittedTake {
   CodedMotion motion;
   KnotShape shape;
-  PositionErrors errors;
-  std::vector<float> distances;  ///< frames x joints, mm, in no order
-  bool kept = false;             ///< false: not even the finest step keeps the fidelity
+  double mean_mm = 0;  ///< over all joints and frames of the prepared take
+  bool kept = false;   ///< false: not even the finest step keeps the fidelity
 };
 
 /// The step that the search begins with.
@@ -42,7 +42,7 @@ struct FitOptions {
 FitOptions fit_options(const IngestOptions& options);
 
 /// `model` is where the contexts of the space's takes start.
-FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model, const Take& take,
-                    const FitOptions& options);
+FittedTake fit_take(const CoefficientSpace& space, const KnotModel& model,
+                    const PreparedTake& prepared, const FitOptions& options);
 
 }  // namespace reprise

@@ -60,7 +60,7 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   }
   outline.content = content_digest(*take.skeleton, take.channels, 0, take.frames());
   outline.skeleton = take.skeleton;
-  outline.evidence = layout_evidence(take);
+  outline.evidence = layout_evidence(prepare_take(take));
   outline.frames = take.frames();
   outline.frame_rate = take.frame_rate;
   outline.frame_rate_assumed = take.frame_rate_assumed;
@@ -80,6 +80,10 @@ SourceTake read_source(const FreshTake& fresh, const ReadOptions& options) {
 
 Take read_again(const FreshTake& fresh, const ReadOptions& options) {
   return read_source(fresh, options).take;
+}
+
+PreparedTake read_prepared(const FreshTake& fresh, const ReadOptions& options) {
+  return prepare_take(read_again(fresh, options));
 }
 
 Digest content_digest(const Skeleton& skeleton, const ChannelMatrix& channels, long first,

@@ -40,6 +40,8 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options);
 /// Reads the file for coding. Throws Error (rejected_input) where it is no longer what was
 /// outlined.
 Take read_again(const FreshTake& fresh, const ReadOptions& options);
+/// The same as coders see it.
+PreparedTake read_prepared(const FreshTake& fresh, const ReadOptions& options);
 
 /// The same with the motion file's text beside it.
 struct SourceTake {

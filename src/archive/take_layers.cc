@@ -1,5 +1,8 @@
 #include "archive/take_layers.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "exact/text_codec.h"
 #include "refine/coarse_channels.h"
 #include "refine/refinement.h"
@@ -7,92 +10,109 @@
 namespace reprise {
 namespace {
 
-/// The bound that the refinement of a fidelity keeps; nothing where it has none. A finer bound is
-/// coded on its own, since on top of `standard` it takes a quarter more (docs/findings).
-std::optional<double> bound_of(const Fidelity& fidelity) {
-  const bool bounded =
-      fidelity.tier != FidelityTier::preview && fidelity.tier != FidelityTier::exact;
-  return bounded ? std::optional(fidelity.limit_mm) : std::nullopt;
+/// Whether a fidelity has a refinement. A finer bound is coded on its own, since on top of
+/// `standard` it takes a quarter more (docs/findings).
+bool is_bounded(const Fidelity& fidelity) {
+  return fidelity.tier != FidelityTier::preview && fidelity.tier != FidelityTier::exact;
 }
 
 class LayerMaker {
  public:
-  LayerMaker(const CodedSpace& space, const Take& take, bool contacts)
-      : space_(space), take_(take), contacts_(contacts) {}
+  LayerMaker(const CodedSpace& space, const CodingSource& source, bool contacts)
+      : space_(space), source_(source), contacts_(contacts) {}
 
   /// On the axes of the space, or channel by channel where that is smaller.
   void add_coarsest(FittedTake fitted, double mean_mm) {
-    const TakeShape shape{take_.frames(), take_.frame_rate};
-    Bytes data = encode_motion(space_.model, space_.space, shape, fitted.motion);
-    if (auto coarse = coarse_channels(take_, {mean_mm, contacts_, data.size()})) {
-      add_channels(LayerKind::channels, mean_mm, "curves", std::move(*coarse));
+    const Take& take = source_.prepared.take;
+    const TakeShape shape{take.frames(), take.frame_rate};
+    const Bytes data = encode_motion(space_.model, space_.space, shape, fitted.motion);
+    if (auto coarse = coarse_channels(source_.prepared, {mean_mm, contacts_, data.size()})) {
+      add_channels({LayerKind::channels, mean_mm, 0}, "curves", std::move(*coarse));
       return;
     }
-    const std::size_t all = data.size();
-    fitted.motion.contacts = {};
+    CodedMotion without_contacts = fitted.motion;
+    without_contacts.contacts = {};
     const std::size_t curves =
-        std::min(all, encode_motion(space_.model, space_.space, shape, fitted.motion).size());
-    add(LayerKind::coefficients, mean_mm, {{"curves", curves}, {"contacts", all - curves}},
-        std::move(data));
-    made_.errors = fitted.errors;
-    made_.distances = std::move(fitted.distances);
+        encode_motion(space_.model, space_.space, shape, without_contacts).size();
+    add_motion({LayerKind::coefficients, mean_mm, 0}, "curves", data,
+               data.size() - std::min(data.size(), curves));
+    decode_ = [this, shape, motion = std::move(fitted.motion)] {
+      return motion_channels(space_.space, *source_.take.skeleton,
+                             source_.prepared.header.constants, shape, motion);
+    };
   }
 
-  void add_refinement(double bound_mm) {
-    add_channels(LayerKind::refinement, bound_mm, "refinement",
-                 refine(take_, {bound_mm, contacts_}));
+  void add_refinement(const Fidelity& fidelity) {
+    add_channels({LayerKind::refinement, fidelity.limit_mm, fidelity.limit_deg}, "refinement",
+                 refine(source_.prepared, {fidelity.limit_mm, fidelity.limit_deg, contacts_}));
   }
 
-  void add_text(const std::string& text) {
+  void add_text() {
+    const Skeleton& skeleton = *source_.take.skeleton;
     const std::string known =
-        take_.skeleton->format == MotionFormat::bvh ? take_.skeleton->source_text : std::string();
-    add(LayerKind::text, 0, "text", encode_text(text, known));
-    std::ranges::fill(made_.distances, 0.0F);
-    made_.errors = {};
+        skeleton.format == MotionFormat::bvh ? skeleton.source_text : std::string();
+    Bytes data = encode_text(source_.text, known);
+    count("text", data.size());
+    made_.layers.push_back({LayerKind::text, 0, 0, std::move(data)});
   }
 
-  TakeLayers finish() { return std::move(made_); }
+  /// Measures the finest layer.
+  TakeLayers finish() {
+    const Skeleton& skeleton = *source_.take.skeleton;
+    const bool exact = made_.layers.back().kind == LayerKind::text;
+    made_.distances = motion_distances(
+        skeleton, source_.take.channels,
+        exact ? source_.take.channels : restore_take(skeleton, source_.prepared.header, decode_()));
+    made_.errors = summarise_motion(made_.distances, skeleton.joints.size());
+    return std::move(made_);
+  }
 
  private:
-  void add_channels(LayerKind kind, double limit_mm, const char* part, Refinement channels) {
-    const std::size_t contacts = channels.contact_bytes, rest = channels.bytes.size() - contacts;
-    add(kind, limit_mm, {{part, rest}, {"contacts", contacts}}, std::move(channels.bytes));
-    made_.distances = joint_distances(joint_positions(*take_.skeleton, take_.channels),
-                                      joint_positions(*take_.skeleton, channels.decoded));
-    made_.errors = summarise_distances(made_.distances);
+  struct Promise {
+    LayerKind kind;
+    double limit_mm, limit_deg;
+  };
+
+  void add_channels(const Promise& promise, const char* part, Refinement channels) {
+    add_motion(promise, part, channels.bytes, channels.contact_bytes);
+    decode_ = [decoded = std::move(channels.decoded)] { return decoded; };
   }
-  void add(LayerKind kind, double limit_mm, const char* part, Bytes data) {
-    const std::size_t size = data.size();
-    add(kind, limit_mm, {{part, size}}, std::move(data));
+
+  /// Motion whose last `contacts` bytes, about, are contacts; the header counts as motion.
+  void add_motion(const Promise& promise, const char* part, const Bytes& motion,
+                  std::size_t contacts) {
+    Bytes data =
+        join_header(*source_.take.skeleton, space_.space.known, source_.prepared.header, motion);
+    count(part, data.size() - contacts);
+    count("contacts", contacts);
+    made_.layers.push_back({promise.kind, promise.limit_mm, promise.limit_deg, std::move(data)});
   }
-  void add(LayerKind kind, double limit_mm,
-           const std::vector<std::pair<std::string, std::uint64_t>>& parts, Bytes data) {
-    for (const auto& [name, bytes] : parts) {
-      if (bytes == 0) continue;
-      const auto known = std::ranges::find(made_.spent, name, &TakeLayers::Part::first);
-      if (known != made_.spent.end()) {
-        known->second += bytes;
-      } else {
-        made_.spent.emplace_back(name, bytes);
-      }
+
+  void count(const std::string& part, std::size_t bytes) {
+    if (bytes == 0) return;
+    const auto known = std::ranges::find(made_.spent, part, &TakeLayers::Part::first);
+    if (known != made_.spent.end()) {
+      known->second += bytes;
+    } else {
+      made_.spent.emplace_back(part, bytes);
     }
-    made_.layers.push_back({kind, limit_mm, std::move(data)});
   }
 
   const CodedSpace& space_;
-  const Take& take_;
+  const CodingSource& source_;
   bool contacts_;
   TakeLayers made_;
+  std::function<ChannelMatrix()> decode_;  ///< channels of the finest layer's prepared take
 };
 
 }  // namespace
 
-TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
-                       const std::string& text, FittedTake fitted) {
-  LayerMaker maker(space, take, options.contacts);
+TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space,
+                       const CodingSource& source, FittedTake fitted) {
+  LayerMaker maker(space, source, options.contacts);
   maker.add_coarsest(std::move(fitted), coarse_mean_mm(options.fidelity));
-  if (const auto bound = bound_of(options.fidelity)) maker.add_refinement(*bound);
-  if (options.fidelity.tier == FidelityTier::exact) maker.add_text(text);
+  if (is_bounded(options.fidelity)) maker.add_refinement(options.fidelity);
+  if (options.fidelity.tier == FidelityTier::exact) maker.add_text();
   return maker.finish();
 }
 

@@ -14,13 +14,20 @@ namespace reprise {
 struct TakeLayers {
   std::vector<LayerRecord> layers;
   using Part = std::pair<std::string, std::uint64_t>;
-  std::vector<Part> spent;       ///< TakeRecord::spent
-  PositionErrors errors;         ///< of the finest layer
-  std::vector<float> distances;  ///< of the finest layer: frames x joints, mm, in no order
+  std::vector<Part> spent;    ///< TakeRecord::spent
+  MotionErrors errors;        ///< of the finest layer
+  MotionDistances distances;  ///< of the finest layer, in no order
 };
 
-/// `fitted` is the take on its space; `text` the source file, which only `exact` stores.
-TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
-                       const std::string& text, FittedTake fitted);
+/// A source as it is and as coders see it.
+struct CodingSource {
+  const Take& take;
+  const PreparedTake& prepared;
+  const std::string& text;  ///< the source file, which only `exact` stores
+};
+
+/// `fitted` is the prepared take on its space.
+TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space,
+                       const CodingSource& source, FittedTake fitted);
 
 }  // namespace reprise

@@ -47,7 +47,12 @@ void warn_of_differences(const Take& original, const Take& decoded, const Consol
   }
 }
 
-std::string comparison_text(const Comparison& comparison) {
+std::string place_text(const Take& take, const JointAt& at) {
+  return fmt::format("{}, frame {}, {:.3f} s", joint_label(*take.skeleton, at.joint), at.frame,
+                     static_cast<double>(at.frame) / take.frame_rate);
+}
+
+std::string comparison_text(const Comparison& comparison, const Take& original) {
   Table table({{"", Table::Align::left}, {"", Table::Align::right}});
   table.add({"frames", std::to_string(comparison.frames)});
   table.add({"missing frames", std::to_string(comparison.missing_frames)});
@@ -55,6 +60,12 @@ std::string comparison_text(const Comparison& comparison) {
   table.add({"rms", format_number(comparison.errors.rms, 3) + " mm"});
   table.add({"p99", format_number(comparison.errors.p99, 3) + " mm"});
   table.add({"max", format_number(comparison.errors.max, 3) + " mm"});
+  table.add({"max is at", printable(place_text(original, comparison.worst_place))});
+  table.add({"turns, mean", format_number(comparison.turns.mean, 3) + " deg"});
+  table.add({"turns, p99", format_number(comparison.turns.p99, 3) + " deg"});
+  table.add({"turns, max", format_number(comparison.turns.max, 3) + " deg"});
+  table.add({"turns, max is at", printable(place_text(original, comparison.worst_turn))});
+  table.add({"local turns, max", format_number(comparison.local_turns.max, 3) + " deg"});
   table.add({"d", format_number(comparison.d_percent, 3) + " %"});
   if (comparison.foot_skate) {
     table.add(
@@ -85,8 +96,8 @@ ExitCode CompareCommand::run(Console& console) {
   const Take decoded = read_side(decoded_, original_, read_);
   const Comparison comparison = compare_takes(original, decoded);
   warn_of_differences(original, decoded, console);
-  console.result(comparison_text(comparison));
-  console.document(to_json(comparison));
+  console.result(comparison_text(comparison, original));
+  console.document(to_json(comparison, original));
   return exit_done;
 }
 

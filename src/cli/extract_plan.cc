@@ -23,7 +23,8 @@ std::string clip_file_name(const TakeInfo& take, const ClipInfo& clip) {
 bool holds(const Fidelity& stored, FidelityTier asked) {
   if (stored.tier == FidelityTier::exact || asked == FidelityTier::preview) return true;
   if (stored.tier == FidelityTier::preview || asked == FidelityTier::exact) return false;
-  return stored.limit_mm <= fidelity_of(asked).limit_mm;
+  const Fidelity wanted = fidelity_of(asked);
+  return stored.limit_mm <= wanted.limit_mm && stored.limit_deg <= wanted.limit_deg;
 }
 
 void check_wishes(const TakeInfo& take, const ExtractRequest& request) {

@@ -38,6 +38,7 @@ std::string archive_text(const ArchiveInfo& info, const std::vector<std::string>
   table.add({"text", fmt::format("{}, {}", format_size(stats.text_bytes),
                                  format_ratio(stats.text_bytes, stats.archive_bytes))});
   table.add({"error", format_errors(stats.error_mm)});
+  table.add({"turns", format_turns(stats.rotation_deg)});
   return table.text();
 }
 
@@ -51,19 +52,27 @@ Json archive_document(const ArchiveInfo& info, const std::vector<std::string>& s
 
 std::string limit_text(const Fidelity& fidelity) {
   if (fidelity.tier == FidelityTier::exact) return "exact, the source byte for byte";
-  return fmt::format("{}, {} at most {} mm", tier_name(fidelity.tier),
-                     fidelity.tier == FidelityTier::preview ? "mean error" : "every joint",
-                     fidelity.limit_mm);
+  if (fidelity.tier == FidelityTier::preview) {
+    return fmt::format("preview, mean error at most {} mm", fidelity.limit_mm);
+  }
+  return fmt::format("{}, every joint within {} mm and {} degrees", tier_name(fidelity.tier),
+                     fidelity.limit_mm, fidelity.limit_deg);
 }
 
-std::string take_text(const TakeInfo& take, double unit_mm, const std::vector<ClipInfo>& clips) {
+std::string worst_text(const TakeInfo& take, const Skeleton& skeleton, const JointAt& at) {
+  return fmt::format("{}, frame {}, {:.3f} s", joint_label(skeleton, at.joint), at.frame,
+                     static_cast<double>(at.frame) / take.frame_rate);
+}
+
+std::string take_text(const TakeInfo& take, const Skeleton& skeleton,
+                      const std::vector<ClipInfo>& clips) {
   Table table = facts();
   table.add({"take", take.name});
   if (!take.subject.empty()) table.add({"subject", take.subject});
   if (!take.description.empty()) table.add({"description", take.description});
   if (!take.tags.empty()) table.add({"tags", take.tags});
   table.add({"format", format_name(take.format)});
-  table.add({"unit", fmt::format("{:.6g} mm", unit_mm)});
+  table.add({"unit", fmt::format("{:.6g} mm", skeleton.millimetres_per_unit)});
   table.add({"length", fmt::format("{} at {:.6g} Hz{}, {:.3f} s",
                                    format_count(static_cast<std::uint64_t>(take.frames), "frame"),
                                    take.frame_rate, take.frame_rate_assumed ? " (assumed)" : "",
@@ -71,6 +80,11 @@ std::string take_text(const TakeInfo& take, double unit_mm, const std::vector<Cl
   table.add({"skeleton", std::to_string(take.skeleton)});
   table.add({"fidelity", limit_text(take.fidelity)});
   table.add({"error", format_errors(take.error_mm)});
+  table.add({"turns", format_turns(take.rotation_deg)});
+  if (take.fidelity.tier != FidelityTier::exact) {
+    table.add({"worst place", worst_text(take, skeleton, take.worst_place)});
+    table.add({"worst turn", worst_text(take, skeleton, take.worst_turn)});
+  }
   table.add({"raw", format_size(take.raw_bytes)});
   table.add({"text", format_size(take.text_bytes)});
   table.add({"payload", fmt::format("{}, {} of raw", format_size(take.payload_bytes),
@@ -134,13 +148,13 @@ Json body_document(const Skeleton& skeleton, const JointMap& map) {
   return fields;
 }
 
-Json take_document(const TakeInfo& take, const std::vector<ClipInfo>& clips) {
-  Json fields = to_json(take);
+Json take_document(const TakeInfo& take, const Skeleton& skeleton,
+                   const std::vector<ClipInfo>& clips) {
+  Json fields = to_json(take, skeleton);
   fields["description"] = take.description;
   fields["tags"] = take.tags;
   fields["skeleton"] = take.skeleton;
   fields["frame_rate_assumed"] = take.frame_rate_assumed;
-  fields["limit_mm"] = take.fidelity.limit_mm;
   fields["text_bytes"] = take.text_bytes;
   fields["source_digest"] = take.source_digest;
   fields["clips"] = clips_array(clips);
@@ -199,9 +213,9 @@ ExitCode InfoCommand::run(Console& console) {
     const auto clips = clips_of(archive, selection.take);
     const JointMap map = joint_map_.empty() ? JointMap{} : read_joint_map(joint_map_);
     const Take take = archive.extract(selection.take);
-    console.result(take_text(selection.take, take.skeleton->millimetres_per_unit, clips) +
-                   key_poses_text(take, map) + body_text(*take.skeleton, map));
-    Json document = take_document(selection.take, clips);
+    console.result(take_text(selection.take, *take.skeleton, clips) + key_poses_text(take, map) +
+                   body_text(*take.skeleton, map));
+    Json document = take_document(selection.take, *take.skeleton, clips);
     document["take"]["unit_mm"] = take.skeleton->millimetres_per_unit;
     document["take"]["key_poses"] = key_poses_array(take, map);
     document["take"]["body"] = body_document(*take.skeleton, map);

@@ -91,12 +91,16 @@ void IngestCommand::setup(CLI::App& app) {
   app.add_option_function<std::string>(
          "--fidelity", [this](const std::string& text) { tier_ = parse_tier(text); },
          "How faithful takes are stored: preview (mean error at most 20 mm), standard (the "
-         "default: every joint in every frame within 10 mm), fine (within 1 mm) or exact (byte for "
-         "byte)")
+         "default: every joint in every frame within 10 mm and 10 degrees), fine (within 1 mm and "
+         "1 degree) or exact (byte for byte)")
       ->type_name("TIER");
   add_number(app, "--bound-mm", bound_mm_, FidelityLimits::least_bound_mm,
              FidelityLimits::greatest_bound_mm,
              "Another bound on every joint in every frame, in millimetres, instead of a TIER");
+  add_number(app, "--bound-deg", bound_deg_, FidelityLimits::least_bound_deg,
+             FidelityLimits::greatest_bound_deg,
+             "With --bound-mm: the bound on every joint's orientation, in degrees (default: the "
+             "number of --bound-mm)");
   add_number(
       app, "--mean-mm", mean_mm_, least_mean_mm, greatest_mean_mm,
       "Greatest mean joint error of a take, in millimetres (default 20); means --fidelity preview");
@@ -143,8 +147,11 @@ Fidelity IngestCommand::fidelity() const {
   if (mean_mm_ && (bound_mm_ || tier_.value_or(FidelityTier::preview) != FidelityTier::preview)) {
     throw Error(ErrorCode::usage, "--mean-mm is for the fidelity preview");
   }
-  if (mean_mm_) return {FidelityTier::preview, *mean_mm_};
-  if (bound_mm_) return {FidelityTier::bound, *bound_mm_};
+  if (bound_deg_ && !bound_mm_) {
+    throw Error(ErrorCode::usage, "--bound-deg goes with --bound-mm");
+  }
+  if (mean_mm_) return {FidelityTier::preview, *mean_mm_, 0};
+  if (bound_mm_) return {FidelityTier::bound, *bound_mm_, bound_deg_.value_or(*bound_mm_)};
   return fidelity_of(tier_.value_or(FidelityTier::standard));
 }
 

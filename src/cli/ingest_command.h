@@ -22,7 +22,7 @@ class IngestCommand : public Command {
   std::filesystem::path archive_;
   IngestOptions options_;
   std::optional<FidelityTier> tier_;
-  std::optional<double> bound_mm_;
+  std::optional<double> bound_mm_, bound_deg_;
   std::optional<double> mean_mm_;
   std::vector<std::string> paths_;
   std::filesystem::path metadata_;

@@ -15,6 +15,23 @@ Json to_json(const PositionErrors& errors) {
   return {{"mean", errors.mean}, {"rms", errors.rms}, {"p99", errors.p99}, {"max", errors.max}};
 }
 
+Json to_json(const RotationErrors& errors) {
+  return {{"mean", errors.mean}, {"p99", errors.p99}, {"max", errors.max}};
+}
+
+std::string joint_label(const Skeleton& skeleton, int joint) {
+  if (joint < 0 || static_cast<std::size_t>(joint) >= skeleton.joints.size()) return {};
+  const Joint& at = skeleton.joints[static_cast<std::size_t>(joint)];
+  if (!at.end_site || at.parent < 0) return at.name;
+  return "end site of " + skeleton.joints[static_cast<std::size_t>(at.parent)].name;
+}
+
+Json worst_json(const Skeleton& skeleton, const JointAt& at, double frame_rate) {
+  return {{"joint", joint_label(skeleton, at.joint)},
+          {"frame", at.frame},
+          {"time", static_cast<double>(at.frame) / frame_rate}};
+}
+
 Json to_json(const std::vector<Damage>& damaged) {
   Json entries = Json::array();
   for (const Damage& damage : damaged) entries.push_back({{"id", damage.id}, {"why", damage.why}});
@@ -33,7 +50,17 @@ Json to_json(const TakeInfo& take) {
           {"fidelity", tier_name(take.fidelity.tier)},
           {"raw_bytes", take.raw_bytes},
           {"payload_bytes", take.payload_bytes},
-          {"error_mm", to_json(take.error_mm)}};
+          {"error_mm", to_json(take.error_mm)},
+          {"rotation_deg", to_json(take.rotation_deg)},
+          {"limit_mm", take.fidelity.limit_mm},
+          {"limit_deg", take.fidelity.limit_deg}};
+}
+
+Json to_json(const TakeInfo& take, const Skeleton& skeleton) {
+  Json fields = to_json(take);
+  fields["worst_place"] = worst_json(skeleton, take.worst_place, take.frame_rate);
+  fields["worst_turn"] = worst_json(skeleton, take.worst_turn, take.frame_rate);
+  return fields;
 }
 
 Json to_json(const ClipInfo& clip) {
@@ -84,19 +111,31 @@ Json to_json(const ArchiveStats& stats) {
            {{"raw", ratio(stats.raw_bytes, stats.archive_bytes)},
             {"text", ratio(stats.text_bytes, stats.archive_bytes)}}},
           {"error_mm", to_json(stats.error_mm)},
+          {"rotation_deg", to_json(stats.rotation_deg)},
+          {"worst_place_take", stats.worst_place_take},
+          {"worst_turn_take", stats.worst_turn_take},
           {"fidelity", fidelity}};
 }
 
-Json to_json(const Comparison& comparison) {
+Json to_json(const Comparison& comparison, const Take& original) {
   Json skate = nullptr;
   if (comparison.foot_skate) {
     skate = {{"original", comparison.foot_skate->original},
              {"decoded", comparison.foot_skate->decoded}};
   }
-  return {{"frames", comparison.frames},       {"missing_frames", comparison.missing_frames},
-          {"mean_mm", comparison.errors.mean}, {"rms_mm", comparison.errors.rms},
-          {"p99_mm", comparison.errors.p99},   {"max_mm", comparison.errors.max},
-          {"d_percent", comparison.d_percent}, {"foot_skate_mm_s", skate}};
+  return {
+      {"frames", comparison.frames},
+      {"missing_frames", comparison.missing_frames},
+      {"mean_mm", comparison.errors.mean},
+      {"rms_mm", comparison.errors.rms},
+      {"p99_mm", comparison.errors.p99},
+      {"max_mm", comparison.errors.max},
+      {"d_percent", comparison.d_percent},
+      {"foot_skate_mm_s", skate},
+      {"rotation_deg", to_json(comparison.turns)},
+      {"local_rotation_deg", to_json(comparison.local_turns)},
+      {"worst_place", worst_json(*original.skeleton, comparison.worst_place, original.frame_rate)},
+      {"worst_turn", worst_json(*original.skeleton, comparison.worst_turn, original.frame_rate)}};
 }
 
 }  // namespace reprise::cli

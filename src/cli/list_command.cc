@@ -124,6 +124,19 @@ std::string skeletons_table(const std::vector<SkeletonInfo>& skeletons, bool bol
   return table.text(bold);
 }
 
+/// Takes with the joints in which their errors are largest.
+Json takes_document(const Archive& archive, const std::vector<TakeInfo>& takes) {
+  std::map<std::int64_t, std::shared_ptr<const Skeleton>> skeletons;
+  Json entries = Json::array();
+  for (const TakeInfo& take : takes) {
+    // Joints have the same names in all takes of a skeleton.
+    auto& skeleton = skeletons[take.skeleton];
+    if (skeleton == nullptr) skeleton = archive.skeleton(take);
+    entries.push_back(to_json(take, *skeleton));
+  }
+  return {{"takes", entries}};
+}
+
 template <typename Record>
 Json document_of(const char* name, const std::vector<Record>& records) {
   Json entries = Json::array();
@@ -188,7 +201,7 @@ ExitCode ListCommand::run(Console& console) {
   } else {
     const auto takes = archive.takes(filter_);
     console.result(takes_table(takes, bold));
-    console.document(document_of("takes", takes));
+    if (console.json()) console.document(takes_document(archive, takes));
   }
   return exit_done;
 }

@@ -15,6 +15,14 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
   return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
+/// Which takes have the greatest errors.
+std::string worst_takes(const ArchiveStats& stats) {
+  std::string text;
+  if (!stats.worst_place_take.empty()) text += "worst place in: " + stats.worst_place_take + "\n";
+  if (!stats.worst_turn_take.empty()) text += "worst turn in: " + stats.worst_turn_take + "\n";
+  return printable(text);
+}
+
 std::string stats_text(const ArchiveStats& stats, bool bold) {
   Table counts({{"", left}, {"", right}});
   counts.add({"takes", std::to_string(stats.takes)});
@@ -45,7 +53,8 @@ std::string stats_text(const ArchiveStats& stats, bool bold) {
   for (const auto& [tier, takes] : stats.fidelity) fidelity.add({tier, std::to_string(takes)});
 
   return counts.text(bold) + "\n" + sizes.text(bold) + "\n" + parts.text(bold) + "\n" +
-         fidelity.text(bold) + "\nerror: " + format_errors(stats.error_mm) + "\n";
+         fidelity.text(bold) + "\nerror: " + format_errors(stats.error_mm) +
+         "\nturns: " + format_turns(stats.rotation_deg) + "\n" + worst_takes(stats);
 }
 
 }  // namespace

@@ -51,6 +51,11 @@ std::string format_errors(const PositionErrors& errors) {
                      errors.rms, errors.p99, errors.max);
 }
 
+std::string format_turns(const RotationErrors& errors) {
+  return fmt::format("mean {:.2f} degrees, p99 {:.2f} degrees, max {:.2f} degrees", errors.mean,
+                     errors.p99, errors.max);
+}
+
 std::string format_clock(double seconds) {
   const auto total = static_cast<std::uint64_t>(std::llround(std::max(0.0, seconds)));
   const auto hours = total / 3600;

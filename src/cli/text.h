@@ -18,6 +18,8 @@ std::string format_ratio(std::uint64_t larger, std::uint64_t smaller);
 std::string format_number(double value, int decimals);
 /// "mean 8.1 mm, rms 9.9 mm, p99 25.0 mm, max 61.2 mm".
 std::string format_errors(const PositionErrors& errors);
+/// "mean 0.41 degrees, p99 1.90 degrees, max 8.84 degrees".
+std::string format_turns(const RotationErrors& errors);
 /// "0:07", "12:30", "1:02:03"; whole seconds.
 std::string format_clock(double seconds);
 /// "1 take", "2 takes".

@@ -17,7 +17,8 @@ Json document_of(const VerifyReport& report) {
           {"takes", report.takes},
           {"clips", report.clips},
           {"damaged", to_json(report.damaged)},
-          {"error_mm", report.measured > 0 ? to_json(report.error_mm) : Json(nullptr)}};
+          {"error_mm", report.measured > 0 ? to_json(report.error_mm) : Json(nullptr)},
+          {"rotation_deg", report.measured > 0 ? to_json(report.rotation_deg) : Json(nullptr)}};
 }
 
 std::string report_text(const VerifyReport& report, bool measured) {
@@ -28,8 +29,9 @@ std::string report_text(const VerifyReport& report, bool measured) {
     text += printable(fmt::format("{}: {}", damage.id, damage.why)) + "\n";
   }
   if (report.measured > 0) {
-    text += fmt::format("error {}: {}\n", measured ? "against the sources" : "as stored",
-                        format_errors(report.error_mm));
+    const char* how = measured ? "against the sources" : "as stored";
+    text += fmt::format("error {}: {}\n", how, format_errors(report.error_mm));
+    text += fmt::format("turns {}: {}\n", how, format_turns(report.rotation_deg));
   }
   return text;
 }

@@ -41,13 +41,24 @@ bool off_bone_pair(const MarkerLayout& layout, const DrivenJoint& driven) {
 
 }  // namespace
 
-JointAngleSolver::JointAngleSolver(const MarkerLayout& layout, std::span<const double> start)
+JointAngleSolver::JointAngleSolver(const MarkerLayout& layout, std::span<const double> start,
+                                   const ChannelConstants& constants)
     : layout_(layout),
       angles_(start.begin(), start.end()),
       rotations_(layout.reference.joints.size(), Matrix3d::Identity()),
       positions_(layout.reference.joints.size(), Vector3d::Zero()),
       driven_of_joint_(layout.reference.joints.size(), -1) {
+  for (std::size_t c = 0; c < constants.size(); ++c) {
+    if (constants[c]) angles_[c] = *constants[c];
+  }
   for (double& angle : angles_) angle /= degrees_per_radian;
+  for (const DrivenJoint& driven : layout.driven) {
+    rotation_channels_.push_back(driven.rotations);
+    for (RotationChannel& rotation : rotation_channels_.back()) {
+      const auto channel = static_cast<std::size_t>(rotation.channel);
+      if (channel < constants.size() && constants[channel]) rotation.active = false;
+    }
+  }
   for (std::size_t d = 0; d < layout.driven.size(); ++d) {
     const DrivenJoint& driven = layout.driven[d];
     driven_of_joint_[driven.joint] = static_cast<int>(d);
@@ -100,17 +111,18 @@ Matrix3d JointAngleSolver::solve_joint(std::size_t index, std::span<const double
   const Matrix3d& axis = layout_.reference.joints[driven.joint].axis;
   const Matrix3d to_world = has_axis ? Matrix3d(parent * axis) : parent;
   Matrix3d local = seen_rotation(index, markers, to_world.transpose(), centre);
-  if (turns_about_three_axes(driven.rotations)) {
-    const auto& r = driven.rotations;
+  const std::vector<RotationChannel>& rotations = rotation_channels_[index];
+  if (turns_about_three_axes(rotations)) {
+    const auto& r = rotations;
     const EulerAngles previous = {angles_[r[0].channel], angles_[r[1].channel],
                                   angles_[r[2].channel]};
     const EulerAngles now =
         nearest_euler_angles(local, {r[0].axis, r[1].axis, r[2].axis}, previous);
     for (int k = 0; k < 3; ++k) angles_[r[k].channel] = now[k];
   } else {
-    local = fit_axis_turns(driven.rotations, local, angles_);
+    local = fit_axis_turns(rotations, local, angles_);
   }
-  for (const RotationChannel& rotation : driven.rotations) {
+  for (const RotationChannel& rotation : rotations) {
     channels[rotation.channel] = angles_[rotation.channel] * degrees_per_radian;
   }
   const Matrix3d turned = to_world * local;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ingest/marker_layout.h"
+#include "model/constant_channels.h"
 
 namespace reprise {
 
@@ -14,8 +15,9 @@ namespace reprise {
 class JointAngleSolver {
  public:
   /// `start` is a whole frame of channels (degrees): where the angles of the first frame are looked
-  /// for.
-  JointAngleSolver(const MarkerLayout& layout, std::span<const double> start);
+  /// for. Angles of `constants` (one a channel, or none at all) stay as they are there.
+  JointAngleSolver(const MarkerLayout& layout, std::span<const double> start,
+                   const ChannelConstants& constants = {});
 
   /// Makes the next frame look for the angles of driven joint `index` near these (degrees,
   /// outermost first; of a longer chain the first ones).
@@ -43,6 +45,7 @@ class JointAngleSolver {
                                 const Eigen::Vector3d& centre) const;
 
   const MarkerLayout& layout_;
+  std::vector<std::vector<RotationChannel>> rotation_channels_;  ///< of each driven joint
   std::vector<double> angles_;  ///< of the last frame, a number a channel, radians
   std::vector<Eigen::Matrix3d> rotations_;
   std::vector<Eigen::Vector3d> positions_;

@@ -102,7 +102,7 @@ std::vector<double> resting_channels(const CoefficientSpace& space, const Skelet
 }
 
 TrajectoryMatrix to_trajectories(const CoefficientSpace& space, const Take& take,
-                                 const MarkedTake& marked) {
+                                 const MarkedTake& marked, const ChannelConstants& constants) {
   const MarkerLayout& layout = space.layout;
   const TrajectoryKinds kinds = trajectory_kinds(space, marked.root.tumbles);
   TrajectoryMatrix result(take.frames(), kinds.count());
@@ -121,6 +121,10 @@ TrajectoryMatrix to_trajectories(const CoefficientSpace& space, const Take& take
   const std::vector<double> scale = direct_scale(layout, *take.skeleton);
   for (int d = 0; d < kinds.direct; ++d) {
     const int channel = layout.direct_channels[d];
+    if (!constants.empty() && constants[static_cast<std::size_t>(channel)]) {
+      result.col(first_direct + d).setZero();
+      continue;
+    }
     VectorXd values = take.channels.col(channel);
     if (is_rotation(kind_of_channel(*take.skeleton, channel))) values = without_turns(values);
     result.col(first_direct + d) = (values.array() - resting[channel]) * scale[d];
@@ -130,7 +134,8 @@ TrajectoryMatrix to_trajectories(const CoefficientSpace& space, const Take& take
 
 ChannelMatrix to_channels(const CoefficientSpace& space, const Skeleton& skeleton, bool tumbles,
                           const TrajectoryMatrix& trajectories,
-                          const std::vector<BranchSwitch>& switches) {
+                          const std::vector<BranchSwitch>& switches,
+                          const ChannelConstants& constants) {
   const MarkerLayout& layout = space.layout;
   const TrajectoryKinds kinds = trajectory_kinds(space, tumbles);
   const Index frames = trajectories.rows();
@@ -144,6 +149,7 @@ ChannelMatrix to_channels(const CoefficientSpace& space, const Skeleton& skeleto
     channels.col(layout.direct_channels[d]).array() +=
         trajectories.col(first_direct + d).array() / scale[d];
   }
+  set_constants(constants, channels);
   RootTrack track;
   track.tumbles = tumbles;
   if (kinds.root > 0) read_track(layout, trajectories, track);
@@ -151,7 +157,7 @@ ChannelMatrix to_channels(const CoefficientSpace& space, const Skeleton& skeleto
   MarkerMatrix markers =
       trajectories.middleCols(kinds.root, kinds.coefficients) * space.axes.transpose();
   markers.rowwise() += space.mean.transpose();
-  JointAngleSolver solver(layout, space.start);
+  JointAngleSolver solver(layout, space.start, constants);
   std::array<double, 3> root_angles{};
   const auto root_rotations = rotation_channels(skeleton.joints[layout.choices.root_joint]);
   for (std::size_t k = 0; k < std::min<std::size_t>(3, root_rotations.size()); ++k) {
@@ -178,6 +184,7 @@ ChannelMatrix to_channels(const CoefficientSpace& space, const Skeleton& skeleto
                           world_orientation(track, f, aligned), row, root_angles);
     }
   }
+  set_constants(constants, channels);
   return channels;
 }
 

@@ -8,9 +8,17 @@
 #include "ingest/marker_layout.h"
 #include "ingest/root_alignment.h"
 #include "ingest/virtual_markers.h"
+#include "model/constant_channels.h"
 #include "reprise/model/take.h"
 
 namespace reprise {
+
+/// Of each channel, the values that takes of a skeleton often have where they do not move, the
+/// commonest first; at most `KnownValueLimits::values`.
+using KnownValues = std::vector<std::vector<double>>;
+struct KnownValueLimits {
+  static constexpr std::size_t values = 7;
+};
 
 /// A mean posture and the axes on which postures are written (lin-2011 section 4).
 struct CoefficientSpace {
@@ -21,6 +29,7 @@ struct CoefficientSpace {
   Eigen::VectorXd variance;              ///< of each axis over the takes that made it, mm^2
   std::vector<double>
       start;  ///< a whole frame (degrees and units): what channels are where nothing else says so
+  KnownValues known;  ///< what channels often are where they do not move
 };
 
 /// frames x trajectories: the root's track, then coefficients of the axes, then the direct
@@ -48,8 +57,9 @@ MarkedTake mark_take(const MarkerLayout& layout, const Take& take);
 /// space's start.
 std::vector<double> resting_channels(const CoefficientSpace& space, const Skeleton& skeleton);
 
+/// Channels of `constants` (one a channel, or none at all) take no trajectory.
 TrajectoryMatrix to_trajectories(const CoefficientSpace& space, const Take& take,
-                                 const MarkedTake& marked);
+                                 const MarkedTake& marked, const ChannelConstants& constants = {});
 
 /// A place where the angles of a joint are written in another way than continuity says: in frame
 /// `frame` the solver looks near `degrees` for driven joint `driven` (or the root joint, where
@@ -60,10 +70,12 @@ struct BranchSwitch {
   std::array<std::int32_t, 3> quarter_turns{};  ///< each angle to look near, in units of 90 degrees
 };
 
-/// The way back: channels of every frame, on the skeleton of the take.
+/// The way back: channels of every frame, on the skeleton of the take. Those of `constants` (one a
+/// channel, or none at all) are as it says.
 ChannelMatrix to_channels(const CoefficientSpace& space, const Skeleton& skeleton, bool tumbles,
                           const TrajectoryMatrix& trajectories,
-                          const std::vector<BranchSwitch>& switches);
+                          const std::vector<BranchSwitch>& switches,
+                          const ChannelConstants& constants = {});
 
 /// The switches that keep decoded angles in the source's own branch.
 std::vector<BranchSwitch> find_branch_switches(const CoefficientSpace& space, const Take& source,

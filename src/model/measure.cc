@@ -148,7 +148,14 @@ Comparison compare_takes(const Take& original, const Take& decoded) {
   Comparison result;
   result.frames = std::min(a.rows(), b.rows());
   result.missing_frames = std::max(a.rows(), b.rows()) - result.frames;
-  result.errors = position_errors(a, b);
+  MotionDistances distances = motion_distances(*original.skeleton, original.channels,
+                                               decoded.channels, true, decoded.skeleton.get());
+  const MotionErrors errors = summarise_motion(distances, original.skeleton->joints.size());
+  result.errors = errors.places;
+  result.turns = errors.turns;
+  result.local_turns = summarise_turns(distances.local_turns);
+  result.worst_place = errors.worst_place;
+  result.worst_turn = errors.worst_turn;
   result.d_percent = d_percent(a, b, result.frames);
   result.foot_skate = foot_skate(*original.skeleton, a, b, original.frame_rate);
   return result;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "quant/axis_coder.h"
+#include "quant/known_values.h"
 #include "quant/numbers.h"
 #include "reprise/error.h"
 
@@ -20,6 +21,7 @@ constexpr double resting_step = 0.001;  // degrees or units of the file
 constexpr double quarter_octave = 1.189207115002721;
 constexpr int precision_bias = 64;
 constexpr std::uint32_t most_axes = 4096;
+constexpr std::size_t length_bytes = 4;
 
 [[noreturn]] void throw_damaged() {
   throw Error(ErrorCode::damaged, "the axes of a coefficient space are not as they were written");
@@ -175,12 +177,33 @@ void code_space(Io& io, CoefficientSpace& space, const Skeleton& reference, Inde
   code_axes(io, space, known_axes, precision.axis_error_mm);
 }
 
+/// A channel that never moved starts at the commonest of its values.
+bool starts_at_known_value(const CoefficientSpace& space, std::size_t channel) {
+  return channel < space.known.size() && !space.known[channel].empty() &&
+         !space.layout.choices.active[channel];
+}
+
+/// Cuts a part that its length stands before off the front of `blob`.
+std::span<const std::uint8_t> take_part(std::span<const std::uint8_t>& blob) {
+  if (blob.size() < length_bytes) throw_damaged();
+  std::size_t size = 0;
+  for (std::size_t byte = 0; byte < length_bytes; ++byte)
+    size |= std::size_t{blob[byte]} << (8 * byte);
+  if (size > blob.size() - length_bytes) throw_damaged();
+  const auto part = blob.subspan(length_bytes, size);
+  blob = blob.subspan(length_bytes + size);
+  return part;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_space(const CoefficientSpace& space,
                                        const SpacePrecision& precision) {
   Writer writer;
   CoefficientSpace copy = space;
+  for (std::size_t c = 0; c < copy.start.size(); ++c) {
+    if (starts_at_known_value(copy, c)) copy.start[c] = 0;
+  }
   code_space(writer, copy, space.layout.reference, 0, false, precision);
   return writer.encoder.finish();
 }
@@ -203,26 +226,41 @@ CoefficientSpace decode_space(std::span<const std::uint8_t> bytes, const Skeleto
   return space;
 }
 
-std::vector<std::uint8_t> pack_space(std::span<const std::uint8_t> space,
-                                     std::span<const std::uint8_t> prior) {
-  std::vector<std::uint8_t> blob(4 + space.size() + prior.size());
-  for (int byte = 0; byte < 4; ++byte) {
-    blob[static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(space.size() >> (8 * byte));
+void set_known_values(KnownValues known, CoefficientSpace& space) {
+  space.known = std::move(known);
+  for (std::size_t c = 0; c < space.start.size(); ++c) {
+    if (starts_at_known_value(space, c)) space.start[c] = space.known[c].front();
   }
-  std::ranges::copy(space, blob.begin() + 4);
-  std::ranges::copy(prior, blob.begin() + 4 + static_cast<std::ptrdiff_t>(space.size()));
+}
+
+std::vector<std::uint8_t> pack_space(std::span<const std::uint8_t> known,
+                                     std::span<const std::uint8_t> space,
+                                     std::span<const std::uint8_t> prior) {
+  std::vector<std::uint8_t> blob;
+  for (const std::span<const std::uint8_t> part : {known, space}) {
+    for (std::size_t byte = 0; byte < length_bytes; ++byte) {
+      blob.push_back(static_cast<std::uint8_t>(part.size() >> (8 * byte)));
+    }
+    blob.insert(blob.end(), part.begin(), part.end());
+  }
+  blob.insert(blob.end(), prior.begin(), prior.end());
   return blob;
+}
+
+KnownValues unpack_known_values(std::span<const std::uint8_t> blob, std::size_t channels) {
+  return decode_known_values(take_part(blob), channels);
 }
 
 CodedSpace unpack_space(std::span<const std::uint8_t> blob, const Skeleton& reference,
                         const CoefficientSpace* base) {
-  if (blob.size() < 4) throw_damaged();
-  std::size_t size = 0;
-  for (int byte = 0; byte < 4; ++byte) size |= std::size_t{blob[byte]} << (8 * byte);
-  if (size > blob.size() - 4) throw_damaged();
+  const std::span<const std::uint8_t> known = take_part(blob), space = take_part(blob);
   CodedSpace coded;
-  coded.space = decode_space(blob.subspan(4, size), reference, base);
-  coded.prior.assign(blob.begin() + 4 + static_cast<std::ptrdiff_t>(size), blob.end());
+  coded.space = decode_space(space, reference, base);
+  if (base == nullptr) {
+    set_known_values(decode_known_values(known, static_cast<std::size_t>(reference.channel_count)),
+                     coded.space);
+  }
+  coded.prior.assign(blob.begin(), blob.end());
   if (!coded.model.load_prior(coded.prior)) throw_damaged();
   return coded;
 }

@@ -37,9 +37,15 @@ std::vector<std::uint8_t> encode_extension(const CoefficientSpace& space, int kn
 CoefficientSpace decode_space(std::span<const std::uint8_t> bytes, const Skeleton& reference,
                               const CoefficientSpace* base);
 
-/// The whole blob of a space: its bytes and the prior.
-std::vector<std::uint8_t> pack_space(std::span<const std::uint8_t> space,
+/// Gives a decoded space the values that channels often have; one that never moved starts there.
+void set_known_values(KnownValues known, CoefficientSpace& space);
+
+/// The whole blob of a space: known values (none of an extension), the space's bytes, the prior.
+std::vector<std::uint8_t> pack_space(std::span<const std::uint8_t> known,
+                                     std::span<const std::uint8_t> space,
                                      std::span<const std::uint8_t> prior);
+/// Known values alone, without decoding axes. Throws Error (damaged).
+KnownValues unpack_known_values(std::span<const std::uint8_t> blob, std::size_t channels);
 CodedSpace unpack_space(std::span<const std::uint8_t> blob, const Skeleton& reference,
                         const CoefficientSpace* base);
 

@@ -184,20 +184,22 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
 }
 
 ChannelMatrix motion_channels(const CoefficientSpace& space, const Skeleton& skeleton,
-                              const TakeShape& take, const CodedMotion& motion) {
+                              const ChannelConstants& constants, const TakeShape& take,
+                              const CodedMotion& motion) {
   const KnotShape shape = shape_of(space, take, motion.tumbles, motion.kinds);
   ChannelMatrix channels =
       to_channels(space, skeleton, motion.tumbles,
-                  dequantise(motion.knots, shape, motion.step_index), motion.switches);
+                  dequantise(motion.knots, shape, motion.step_index), motion.switches, constants);
   const std::vector<Leg> legs = find_legs(space.layout.reference);
   apply_contacts(skeleton, legs, take.frame_rate, motion.contacts, moving_channels(channels),
                  channels);
   return channels;
 }
 
-ChannelMatrix decode_take(const CodedSpace& coded, const Skeleton& skeleton, const TakeShape& take,
+ChannelMatrix decode_take(const CodedSpace& coded, const Skeleton& skeleton,
+                          const ChannelConstants& constants, const TakeShape& take,
                           std::span<const std::uint8_t> bytes) {
-  return motion_channels(coded.space, skeleton, take,
+  return motion_channels(coded.space, skeleton, constants, take,
                          decode_motion(coded.model, coded.space, take, bytes));
 }
 

@@ -75,10 +75,12 @@ CodedMotion decode_motion(const KnotModel& model, const CoefficientSpace& space,
 
 /// Trajectories to channels, feet held where they stand: what a decoder makes of a motion.
 ChannelMatrix motion_channels(const CoefficientSpace& space, const Skeleton& skeleton,
-                              const TakeShape& take, const CodedMotion& motion);
+                              const ChannelConstants& constants, const TakeShape& take,
+                              const CodedMotion& motion);
 
 /// From bytes to channels, on the skeleton of the take. Throws Error (damaged).
-ChannelMatrix decode_take(const CodedSpace& space, const Skeleton& skeleton, const TakeShape& take,
+ChannelMatrix decode_take(const CodedSpace& space, const Skeleton& skeleton,
+                          const ChannelConstants& constants, const TakeShape& take,
                           std::span<const std::uint8_t> bytes);
 
 }  // namespace reprise

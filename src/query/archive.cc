@@ -173,10 +173,13 @@ std::vector<std::string> Archive::subjects() const {
 
 ArchiveStats Archive::stats() const {
   const auto snapshot = impl_->snapshot();
-  DistanceSketches sketches;
-  ArchiveStats stats = impl_->store.stats(
-      [&](const Bytes& sketch, std::uint64_t distances) { sketches.add(sketch, distances); });
+  DistanceSketches sketches, turns;
+  ArchiveStats stats = impl_->store.stats([&](const TakeRecord& record, std::uint64_t distances) {
+    sketches.add(record.error_quantiles, distances);
+    turns.add(record.turn_quantiles, distances);
+  });
   stats.error_mm.p99 = sketches.quantile(0.99);
+  stats.rotation_deg.p99 = turns.quantile(0.99);
   return stats;
 }
 

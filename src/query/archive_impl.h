@@ -20,6 +20,7 @@ struct OpenArchive {
     const std::int64_t now = store.state_number();
     if (now != state) {
       spaces.clear();
+      known_values_read.clear();
       proportions_read.clear();
     }
     state = now;
@@ -31,6 +32,14 @@ struct OpenArchive {
     return known != spaces.end() ? known->second
                                  : spaces.emplace(id, read_space(store, id)).first->second;
   }
+  /// Of a space whose skeleton has so many channels; its axes are not decoded.
+  const KnownValues& known_values(std::int64_t space, std::size_t channels) {
+    const auto known = known_values_read.find(space);
+    return known != known_values_read.end()
+               ? known->second
+               : known_values_read.emplace(space, read_known_values(store, space, channels))
+                     .first->second;
+  }
   const ProportionsRecord& proportions(std::int64_t id) {
     const auto known = proportions_read.find(id);
     return known != proportions_read.end()
@@ -41,6 +50,7 @@ struct OpenArchive {
   ArchiveStore store;
   std::int64_t state = 0;
   std::map<std::int64_t, CodedSpace> spaces;
+  std::map<std::int64_t, KnownValues> known_values_read;
   std::map<std::int64_t, ProportionsRecord> proportions_read;
 };
 

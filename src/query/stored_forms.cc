@@ -159,4 +159,8 @@ CodedSpace read_space(const ArchiveStore& store, std::int64_t id) {
   return coded;
 }
 
+KnownValues read_known_values(const ArchiveStore& store, std::int64_t space, std::size_t channels) {
+  return unpack_known_values(store.space_chain(space).spaces.front().data, channels);
+}
+
 }  // namespace reprise

@@ -26,4 +26,7 @@ Skeleton reference_skeleton(const ArchiveStore& store, std::int64_t skeleton);
 /// A space with all that it extends. Throws Error (damaged).
 CodedSpace read_space(const ArchiveStore& store, std::int64_t id);
 
+/// The known values of a space of a skeleton with so many channels. Throws Error (damaged).
+KnownValues read_known_values(const ArchiveStore& store, std::int64_t space, std::size_t channels);
+
 }  // namespace reprise

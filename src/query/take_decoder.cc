@@ -8,6 +8,7 @@
 #include "model/free_memory.h"
 #include "model/written_channels.h"
 #include "quant/take_codec.h"
+#include "quant/take_header.h"
 #include "refine/coarse_channels.h"
 #include "refine/coded_channels.h"
 #include "refine/refinement.h"
@@ -27,11 +28,13 @@ bool keeps(const LayerRecord& layer, FidelityTier tier) {
     case FidelityTier::preview:
       return true;
     case FidelityTier::standard:
-      return layer.kind == LayerKind::text ||
-             (layer.kind == LayerKind::refinement && layer.limit_mm <= FidelityLimits::standard_mm);
+      return layer.kind == LayerKind::text || (layer.kind == LayerKind::refinement &&
+                                               layer.limit_mm <= FidelityLimits::standard_mm &&
+                                               layer.limit_deg <= FidelityLimits::standard_deg);
     case FidelityTier::fine:
       return layer.kind == LayerKind::text ||
-             (layer.kind == LayerKind::refinement && layer.limit_mm <= FidelityLimits::fine_mm);
+             (layer.kind == LayerKind::refinement && layer.limit_mm <= FidelityLimits::fine_mm &&
+              layer.limit_deg <= FidelityLimits::fine_deg);
     default:
       return layer.kind == LayerKind::text;
   }
@@ -60,10 +63,14 @@ void check_frames(const TakeInfo& take, const Skeleton& skeleton) {
 /// What can be told to be damaged is not called too large.
 void check_memory(const StoredLayer& stored, const Skeleton& skeleton) {
   if (decoding_memory(skeleton, stored.take.frames) <= always_there) return;
-  const bool channels = stored.kind == LayerKind::refinement || stored.kind == LayerKind::channels;
-  if (channels && !channels_fit(stored.bytes.size(), skeleton, stored.take.frames)) {
-    throw Error(ErrorCode::damaged, "the archive is damaged: take '" + stored.take.name +
-                                        "' has more frames than its bytes can hold");
+  if (stored.kind == LayerKind::refinement || stored.kind == LayerKind::channels) {
+    const SplitLayer split =
+        split_header(skeleton, *stored.known, stored.take.frames, stored.bytes);
+    const std::size_t moving = moving_count(split.header.constants);
+    if (!channels_fit(split.data.size(), moving, stored.take.frames)) {
+      throw Error(ErrorCode::damaged, "the archive is damaged: take '" + stored.take.name +
+                                          "' has more frames than its bytes can hold");
+    }
   }
   check_decoding_memory(stored.take, skeleton, free_memory());
 }
@@ -95,28 +102,40 @@ ChannelMatrix parsed_channels(const Take& empty, const std::string& text, const 
               "the archive is damaged: the text of take '" + name + "' is not what was taken in");
 }
 
-ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::string* text) {
+/// Channels of the prepared take.
+ChannelMatrix prepared_channels(const StoredLayer& stored, const Skeleton& skeleton,
+                                const SplitLayer& split) {
   const TakeInfo& info = stored.take;
-  const TakeShape shape{info.frames, info.frame_rate};
+  const TakeShape shape{prepared_frames(split.header, info.frames), info.frame_rate};
+  const ChannelConstants& constants = split.header.constants;
   switch (stored.kind) {
     case LayerKind::coefficients:
-      if (!same_structure(stored.space->space.layout.reference, *empty.skeleton)) {
+      if (!same_structure(stored.space->space.layout.reference, skeleton)) {
         throw Error(ErrorCode::damaged, "the archive is damaged: the axes of take '" + info.name +
                                             "' are another skeleton's");
       }
-      return decode_take(*stored.space, *empty.skeleton, shape, stored.bytes);
+      return decode_take(*stored.space, skeleton, constants, shape, split.data);
     case LayerKind::refinement:
-      return decode_refinement(*empty.skeleton, shape, stored.bytes);
+      return decode_refinement(skeleton, constants, shape, split.data);
     case LayerKind::channels:
-      return decode_coarse_channels(*empty.skeleton, shape, stored.bytes);
-    case LayerKind::text: {
-      std::string decoded = decode_whole_text(stored.bytes, info, empty);
-      ChannelMatrix channels = parsed_channels(empty, decoded, info.name);
-      if (text != nullptr) *text = std::move(decoded);
-      return channels;
-    }
+      return decode_coarse_channels(skeleton, constants, shape, split.data);
+    case LayerKind::text:
+      break;
   }
   throw Error(ErrorCode::damaged, "the archive is damaged: a layer is of no known kind");
+}
+
+ChannelMatrix channels_of(const StoredLayer& stored, const Take& empty, std::string* text) {
+  const TakeInfo& info = stored.take;
+  if (stored.kind == LayerKind::text) {
+    std::string decoded = decode_whole_text(stored.bytes, info, empty);
+    ChannelMatrix channels = parsed_channels(empty, decoded, info.name);
+    if (text != nullptr) *text = std::move(decoded);
+    return channels;
+  }
+  const Skeleton& skeleton = *empty.skeleton;
+  const SplitLayer split = split_header(skeleton, *stored.known, info.frames, stored.bytes);
+  return restore_take(skeleton, split.header, prepared_channels(stored, skeleton, split));
 }
 
 }  // namespace
@@ -152,9 +171,13 @@ std::size_t layer_for(const TakeRecord& take, std::optional<FidelityTier> tier) 
 
 StoredLayer read_layer(OpenArchive& archive, const TakeRecord& record, std::size_t layer) {
   const LayerKind kind = record.layers[layer].kind;
-  return {record.info, kind, archive.store.layer(record.info.id, layer),
+  const std::size_t channels = archive.store.skeleton(record.info.skeleton).channels;
+  return {record.info,
+          kind,
+          archive.store.layer(record.info.id, layer),
           archive.proportions(record.proportions),
-          kind == LayerKind::coefficients ? &archive.space(record.space) : nullptr};
+          kind == LayerKind::coefficients ? &archive.space(record.space) : nullptr,
+          kind == LayerKind::text ? nullptr : &archive.known_values(record.space, channels)};
 }
 
 Take decode_layer(const StoredLayer& stored, std::string* text) {

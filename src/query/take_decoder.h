@@ -26,7 +26,8 @@ struct StoredLayer {
   LayerKind kind;
   Bytes bytes;
   const ProportionsRecord& proportions;
-  const CodedSpace* space;  ///< of coefficients
+  const CodedSpace* space;   ///< of coefficients
+  const KnownValues* known;  ///< but of a text
 };
 
 /// Reading is for one thread at a time, decoding is not. Both throw Error (damaged), decoding Error

@@ -8,6 +8,7 @@
 
 #include "query/archive_impl.h"
 #include "query/distance_tally.h"
+#include "query/promise.h"
 #include "query/source_folder.h"
 #include "query/take_decoder.h"
 #include "reprise/error.h"
@@ -17,15 +18,6 @@ namespace reprise {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What a layer promises and does not keep; empty where it keeps it.
-std::string broken_promise(const LayerRecord& layer, const PositionErrors& errors) {
-  const bool mean = layer.kind == LayerKind::coefficients || layer.kind == LayerKind::channels;
-  const double measured = mean ? errors.mean : errors.max;
-  if (measured <= layer.limit_mm) return {};
-  return std::string("its ") + (mean ? "mean" : "greatest") + " error is " +
-         fmt::format("{:.4g} mm, more than the {:g} mm of its fidelity", measured, layer.limit_mm);
-}
 
 /// Decodes every layer of a take, and holds each against the source where there is one.
 class TakeCheck {
@@ -55,8 +47,8 @@ class TakeCheck {
     return std::move(damaged_);
   }
 
-  /// Of the finest layer, once a source was compared with: frames x joints, mm.
-  const std::vector<float>& distances() const { return distances_; }
+  /// Of the finest layer, once a source was compared with; in no order.
+  const MotionDistances& distances() const { return distances_; }
 
  private:
   void note(std::string why, bool outside_fidelity) {
@@ -72,10 +64,10 @@ class TakeCheck {
       if (damaged_.empty()) note("its source has another skeleton", true);
       return;
     }
-    distances_ = joint_distances(joint_positions(*original.skeleton, original.channels),
-                                 joint_positions(*decoded.skeleton, decoded.channels));
-    std::vector<float> sorted = distances_;
-    const std::string broken = broken_promise(layer, summarise_distances(sorted));
+    distances_ = motion_distances(*original.skeleton, original.channels, decoded.channels, false,
+                                  decoded.skeleton.get());
+    const MotionErrors errors = summarise_motion(distances_, original.skeleton->joints.size());
+    const std::string broken = broken_promise(layer, original, decoded, errors);
     if (!broken.empty()) note(broken, true);
   }
 
@@ -96,7 +88,7 @@ class TakeCheck {
   OpenArchive& archive_;
   TakeRecord record_;
   std::vector<Damage> damaged_;
-  std::vector<float> distances_;
+  MotionDistances distances_;
 };
 
 }  // namespace
@@ -116,7 +108,9 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
   try {
     all = takes();
     report.clips = clips().size();
-    report.error_mm = stats().error_mm;
+    const ArchiveStats recorded = stats();
+    report.error_mm = recorded.error_mm;
+    report.rotation_deg = recorded.rotation_deg;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::damaged) throw;
     if (report.damaged.empty()) report.damaged.push_back({"takes", error.reason()});
@@ -124,7 +118,7 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
   snapshot.reset();
   report.takes = all.size();
   if (!against) report.measured = all.size();
-  DistanceTally distances;
+  DistanceTally places, turns;
   for (std::size_t i = 0; i < all.size(); ++i) {
     go_on({i, all.size(), all[i].name});
     try {
@@ -140,8 +134,9 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
       if (against && source == nullptr) {
         report.damaged.push_back({all[i].name, "its source is not in the folder", true});
       }
-      distances.add(check.distances());
-      if (!check.distances().empty()) ++report.measured;
+      places.add(check.distances().places);
+      turns.add(check.distances().turns);
+      if (!check.distances().places.empty()) ++report.measured;
     } catch (const Error& error) {
       const ErrorCode code = error.code();
       // What is wrong with the machine, or with who asks, is no damage.
@@ -151,7 +146,9 @@ VerifyReport Archive::verify(const std::optional<fs::path>& against, const ReadO
   }
   if (sources) {
     std::ranges::copy(sources->unread(), std::back_inserter(report.damaged));
-    report.error_mm = distances.errors();
+    const PositionErrors turned = turns.errors();
+    report.error_mm = places.errors();
+    report.rotation_deg = {turned.mean, turned.p99, turned.max};
   }
   report.ok = report.damaged.empty();
   return report;

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "model/written_channels.h"
 #include "quant/catmull_rom.h"
 #include "refine/knot_rounding.h"
 
@@ -18,9 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Turns about a straight limb move nothing, up to some angle: beyond it compensation, which is
-/// linear, goes wrong. The arm (mm) that holds them grows with the root of the bound (mm).
-constexpr double arm_at_one_mm = 20;
 /// Where first order explains less of a distance, turns are too large for it.
 constexpr double least_explained = 0.7;
 /// Axis times angle of a rotation; a half turn and more count as a little less.
@@ -35,17 +31,17 @@ Vector3d turn_vector(const Matrix3d& from, const Matrix3d& to) {
 
 }  // namespace
 
-ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
-    : take_(take),
-      order_(coding_order(*take.skeleton)),
-      parents_(coding_parents(*take.skeleton)),
-      last_(moving_places(*take.skeleton)),
+ChannelQuantiser::ChannelQuantiser(const PreparedTake& prepared, double arm_mm)
+    : take_(prepared.take),
+      constants_(prepared.header.constants),
+      order_(*take_.skeleton, moving_channels(constants_)),
       channels_(order_.size()),
-      sources_(take.frames(), take.channels.cols()),
-      decoded_(take.frames(), take.channels.cols()),
-      bodies_(take.skeleton->joints.size()),
-      written_(written_joints(*take.skeleton, take.layout)),
-      placement_(take) {
+      sources_(take_.frames(), static_cast<Index>(order_.size())),
+      decoded_(take_.frames(), static_cast<Index>(order_.size())),
+      source_poses_(pose_track(*take_.skeleton, take_.channels)),
+      decoded_poses_(source_poses_),
+      placement_(take_, order_) {
+  const Take& take = take_;
   const Index frames = take.frames();
   for (std::size_t i = 0; i < order_.size(); ++i) {
     Trajectory& channel = channels_[i];
@@ -53,18 +49,14 @@ ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
     channel.compensation.resize(frames, 6);
     channel.residual.resize(frames);
     channel.weight.resize(frames);
-    sources_.col(static_cast<Index>(i)) = take.channels.col(order_[i]);
+    sources_.col(static_cast<Index>(i)) = take.channels.col(order_.channels[i]);
   }
-  for (PlacedJoint& body : bodies_) {
-    body.source.resize(index(frames));
-    body.decoded.resize(index(frames));
-  }
-  PoseMetric metric(*take.skeleton, arm_at_one_mm * std::sqrt(bound_mm));
-  const std::vector<double> weights(bodies_.size(), 1.0);
+  PoseMetric metric(*take.skeleton, order_, arm_mm);
+  const std::vector<double> weights(source_poses_.size(), 1.0);
   std::vector<ChannelMetric> metrics(order_.size());
-  std::vector<JointFrame> joints(bodies_.size());
   for (Index f = 0; f < frames; ++f) {
-    const std::span<const double> frame(take.channels.row(f).data(), order_.size());
+    const std::span<const double> frame(take.channels.row(f).data(),
+                                        static_cast<std::size_t>(take.channels.cols()));
     metric.measure(frame, weights, metrics);
     for (std::size_t i = 0; i < order_.size(); ++i) {
       Trajectory& channel = channels_[i];
@@ -73,8 +65,6 @@ ChannelQuantiser::ChannelQuantiser(const Take& take, double bound_mm)
       channel.weight[f] = static_cast<float>(metrics[i].weight);
       channel.mean_weight += metrics[i].weight / static_cast<double>(frames);
     }
-    forward_kinematics(*take.skeleton, frame, joints);
-    for (std::size_t j = 0; j < joints.size(); ++j) bodies_[j].source[index(f)] = joints[j];
   }
 }
 
@@ -85,14 +75,15 @@ void ChannelQuantiser::set_steps(double step_mm, StepGrid& steps) const {
 }
 
 std::vector<bool> ChannelQuantiser::settled_joints(const CodedChannels& coded) const {
-  std::vector<bool> settled(bodies_.size(), false);
+  std::vector<bool> settled(source_poses_.size(), false);
   if (!done_ || done_->scales != coded.scales) return settled;
   const StepGrid &steps = coded.steps, &before = done_->steps;
-  std::size_t place = 0;
-  for (std::size_t j = 0; j < bodies_.size(); ++j) {
+  for (std::size_t j = 0; j < source_poses_.size(); ++j) {
     const Joint& joint = take_.skeleton->joints[j];
     bool same = joint.parent < 0 || settled[static_cast<std::size_t>(joint.parent)];
-    for (std::size_t c = 0; c < joint.channels.size(); ++c, ++place) {
+    for (const CodedSlot& slot : order_.slots[j]) {
+      if (slot.place < 0) continue;
+      const auto place = static_cast<std::size_t>(slot.place);
       const int group = steps.group(place);
       same = same && steps.base[place] == before.base[place] &&
              steps.offsets.col(group) == before.offsets.col(group);
@@ -104,21 +95,21 @@ std::vector<bool> ChannelQuantiser::settled_joints(const CodedChannels& coded) c
 
 ChannelMatrix ChannelQuantiser::quantise(CodedChannels& coded) {
   const std::vector<bool> settled = settled_joints(coded);
-  std::size_t place = 0;
-  for (std::size_t j = 0; j < bodies_.size(); ++j) {
-    const std::size_t count = take_.skeleton->joints[j].channels.size();
-    if (settled[j]) {
-      for (std::size_t i = place; i < place + count; ++i) take_over(i, coded);
-    } else {
-      quantise_joint(j, place, coded);
+  for (std::size_t j = 0; j < source_poses_.size(); ++j) {
+    if (!settled[j]) {
+      quantise_joint(j, coded);
+      continue;
     }
-    place += count;
+    for (const CodedSlot& slot : order_.slots[j]) {
+      if (slot.place >= 0) take_over(static_cast<std::size_t>(slot.place), coded);
+    }
   }
   done_ = coded;
   ChannelMatrix result(take_.frames(), take_.channels.cols());
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    result.col(order_[i]) = decoded_.col(static_cast<Index>(i));
+    result.col(order_.channels[i]) = decoded_.col(static_cast<Index>(i));
   }
+  set_constants(constants_, result);
   return result;
 }
 
@@ -139,18 +130,26 @@ void ChannelQuantiser::store(std::size_t place, CodedChannels& coded) const {
 }
 
 /// In the order of PoseMetric: place, turns, and for ASF the bone and its stretch.
-void ChannelQuantiser::quantise_joint(std::size_t j, std::size_t place, CodedChannels& coded) {
+void ChannelQuantiser::quantise_joint(std::size_t j, CodedChannels& coded) {
   const Joint& joint = take_.skeleton->joints[j];
-  placement_.begin(j,
-                   joint.parent < 0 ? nullptr : &bodies_[static_cast<std::size_t>(joint.parent)]);
-  for (const int slot : slots_outwards(joint)) {
-    placement_.come_to(slot);
-    expect(place);
-    quantise_channel(place, written_[j], coded);
-    placement_.apply(slot, place, decoded_.col(static_cast<Index>(place)));
-    ++place;
+  if (joint.parent < 0) {
+    placement_.begin(j);
+  } else {
+    const auto parent = static_cast<std::size_t>(joint.parent);
+    placement_.begin(j, source_poses_[parent], decoded_poses_[parent]);
   }
-  placement_.end(bodies_[j].decoded);
+  for (const CodedSlot& slot : order_.slots[j]) {
+    placement_.come_to(slot.slot);
+    if (slot.place < 0) {
+      placement_.apply_constant(slot.slot);
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(slot.place);
+    expect(place);
+    quantise_channel(place, coded);
+    placement_.apply(slot.slot, place, decoded_.col(slot.place));
+  }
+  placement_.end(decoded_poses_[j]);
 }
 
 /// The twist of what is placed so far says what the channel had better be off.
@@ -160,7 +159,7 @@ void ChannelQuantiser::expect(std::size_t place) {
   for (Index f = 0; f < take_.frames(); ++f) {
     const JointFrame& source = progress.source[index(f)];
     const JointFrame& decoded = progress.decoded[index(f)];
-    const Vector3d origin = bodies_.front().source[index(f)].position;
+    const Vector3d origin = source_poses_.front()[index(f)].position;
     Twist twist;
     twist.head<3>() = turn_vector(source.rotation, decoded.rotation);
     twist.tail<3>() =
@@ -169,51 +168,52 @@ void ChannelQuantiser::expect(std::size_t place) {
   }
 }
 
-void ChannelQuantiser::quantise_channel(std::size_t i, bool written, CodedChannels& coded) {
+void ChannelQuantiser::quantise_channel(std::size_t i, CodedChannels& coded) {
   Trajectory& channel = channels_[i];
   const auto place = static_cast<Index>(i);
   const auto source = sources_.col(place);
   MatrixXd column = source - channel.residual.cast<double>();
-  // It has no numbers in a file that could make up for others.
-  if (!written) column = source;
   NestedKnots::from_frames(column, coded.shape.levels);
   if (coded.steps.base[i] < 0 || !round_knots(column, i, coded)) store(i, coded);
   decoded_.col(place) = coded.trajectory(i);
   channel.residual += (decoded_.col(place) - source).cast<float>();
 }
 
-PositionMatrix ChannelQuantiser::positions() const {
-  PositionMatrix result(take_.frames(), 3 * static_cast<Index>(bodies_.size()));
-  for (Index f = 0; f < take_.frames(); ++f) {
-    for (std::size_t j = 0; j < bodies_.size(); ++j) {
-      result.row(f).segment<3>(3 * static_cast<Index>(j)) =
-          bodies_[j].decoded[index(f)].position.transpose();
-    }
-  }
-  return result;
+std::vector<double> ChannelQuantiser::shares(std::size_t joint, Index frame) const {
+  const Vector3d away = displacement(joint, frame);
+  const Vector3d direction = away.normalized();
+  const Vector3d place =
+      source_poses_[joint][index(frame)].position - source_poses_.front()[index(frame)].position;
+  Twist effect;
+  effect << place.cross(direction), direction;
+  return shares_of(effect, order_.last_moving[joint], frame, away.norm());
 }
 
-std::vector<double> ChannelQuantiser::shares(std::size_t joint, Index frame) const {
+std::vector<double> ChannelQuantiser::shares_of_turn(std::size_t joint, Index frame) const {
+  const Vector3d turn = turn_vector(source_poses_[joint][index(frame)].rotation,
+                                    decoded_poses_[joint][index(frame)].rotation);
+  Twist effect = Twist::Zero();
+  effect.head<3>() = turn.normalized();
+  return shares_of(effect, order_.last_turning[joint], frame, turn.norm());
+}
+
+std::vector<double> ChannelQuantiser::shares_of(Twist effect, int last, Index frame,
+                                                double size) const {
   std::vector<double> result(order_.size(), 0.0);
-  const Vector3d direction = displacement(joint, frame).normalized();
-  const Vector3d place =
-      bodies_[joint].source[index(frame)].position - bodies_.front().source[index(frame)].position;
-  // How much a twist at some place along the chain moves the joint after all later channels have
-  // made up for it, as a row vector, from the joint inwards.
-  Twist row;
-  row << place.cross(direction), direction;
-  for (int i = last_[joint]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+  // How much a twist at some place along the chain does after all later channels have made up for
+  // it, as a row vector.
+  for (int i = last; i >= 0; i = order_.parents[static_cast<std::size_t>(i)]) {
     const Trajectory& channel = channels_[static_cast<std::size_t>(i)];
     const Twist motion = channel.motion.row(frame).matrix().cast<double>().transpose();
     const Twist compensation = channel.compensation.row(frame).matrix().cast<double>().transpose();
-    const double reach = row.dot(motion);
+    const double reach = effect.dot(motion);
     result[static_cast<std::size_t>(i)] = reach * static_cast<double>(channel.residual[frame]);
-    row -= compensation * reach;
+    effect -= compensation * reach;
   }
   // Large turns that first order does not know of: what rounding did to the pose as a whole.
   const double explained = std::accumulate(result.begin(), result.end(), 0.0);
-  if (explained < least_explained * displacement(joint, frame).norm()) {
-    for (int i = last_[joint]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+  if (explained < least_explained * size) {
+    for (int i = last; i >= 0; i = order_.parents[static_cast<std::size_t>(i)]) {
       const Trajectory& channel = channels_[static_cast<std::size_t>(i)];
       const double residual = channel.residual[frame];
       result[static_cast<std::size_t>(i)] = channel.weight[frame] * residual * residual;

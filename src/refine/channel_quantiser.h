@@ -5,16 +5,20 @@
 #include <optional>
 #include <vector>
 
+#include "quant/take_header.h"
 #include "refine/coded_channels.h"
+#include "refine/coding_order.h"
 #include "refine/joint_placement.h"
+#include "refine/pose_bounds.h"
 #include "refine/pose_metric.h"
 
 namespace reprise {
 
 class ChannelQuantiser {
  public:
-  /// Measures the take for errors of the size of `bound_mm`; keeps a reference to it.
-  ChannelQuantiser(const Take& take, double bound_mm);
+  /// Measures the take; keeps a reference to it. Turns of a joint weigh as if it carried a point
+  /// `arm_mm` away from it.
+  ChannelQuantiser(const PreparedTake& prepared, double arm_mm);
 
   /// Steps that let every channel do the same harm: `step_mm` over the root of its mean weight.
   void set_steps(double step_mm, StepGrid& steps) const;
@@ -26,16 +30,20 @@ class ChannelQuantiser {
 
   /// After `quantise`: where a joint came to be in a frame, less where it was (mm).
   Eigen::Vector3d displacement(std::size_t joint, Eigen::Index frame) const {
-    return bodies_[joint].decoded[index(frame)].position -
-           bodies_[joint].source[index(frame)].position;
+    return decoded_poses_[joint][index(frame)].position -
+           source_poses_[joint][index(frame)].position;
   }
 
-  /// After `quantise`: where all joints came to be, frames x 3*joints (mm).
-  PositionMatrix positions() const;
+  /// Where joints were, and after `quantise` where they came to be.
+  const PoseTrack& source() const { return source_poses_; }
+  const PoseTrack& decoded() const { return decoded_poses_; }
 
   /// After `quantise`: how much of a joint's displacement in a frame, along the displacement, the
-  /// rounding of each channel that moves it brought in; zero for other channels.
+  /// rounding of each channel that moves it brought in; zero for other channels. One number a place
+  /// of the coding order.
   std::vector<double> shares(std::size_t joint, Eigen::Index frame) const;
+  /// The same of how far the joint is turned away from its orientation.
+  std::vector<double> shares_of_turn(std::size_t joint, Eigen::Index frame) const;
 
  private:
   using Twists = Eigen::Array<float, Eigen::Dynamic, 6>;
@@ -52,17 +60,19 @@ class ChannelQuantiser {
   void take_over(std::size_t place, CodedChannels& coded) const;
   /// Stores a channel's numbers as they are.
   void store(std::size_t place, CodedChannels& coded) const;
-  void quantise_joint(std::size_t joint, std::size_t first_place, CodedChannels& coded);
+  void quantise_joint(std::size_t joint, CodedChannels& coded);
   void expect(std::size_t place);
-  void quantise_channel(std::size_t place, bool written, CodedChannels& coded);
+  void quantise_channel(std::size_t place, CodedChannels& coded);
+  /// Follows an effect, a linear function of twists, from its last place inwards; where first order
+  /// explains too little of `size`, how much rounding weighs in the pose as a whole.
+  std::vector<double> shares_of(Twist effect, int last, Eigen::Index frame, double size) const;
 
   const Take& take_;
-  std::vector<int> order_, parents_;
-  std::vector<int> last_;  ///< of each joint: the last place that moves it, or -1
+  ChannelConstants constants_;
+  CodingOrder order_;
   std::vector<Trajectory> channels_;
   Eigen::MatrixXd sources_, decoded_;  ///< frames x channels in coding order
-  std::vector<PlacedJoint> bodies_;
-  std::vector<bool> written_;  ///< of each joint: a file has numbers for its channels
+  PoseTrack source_poses_, decoded_poses_;
   JointPlacement placement_;
   std::optional<CodedChannels> done_;  ///< what `quantise` made last
 };

@@ -20,6 +20,9 @@ constexpr int steps_per_octave = 32, step_one = 320, most_step = 1023;
 constexpr double step_per_millimetre = 3, reach_per_millimetre = 3;
 /// Seconds between the coarsest knots.
 constexpr double spans_s[] = {1.06, 2.12};
+/// The arm (mm) that holds turns that move nothing, times the root of the reach (mm), as in
+/// Refiner.
+constexpr double arm_at_one_mm = 20;
 /// A take in fewer bytes than this for each channel that moves is not looked at: postures alone
 /// would take more.
 constexpr std::size_t least_channel_bytes = 4;
@@ -37,12 +40,13 @@ double step_mm(int index) {
 
 class CoarseSearch {
  public:
-  CoarseSearch(const Take& take, const CoarseOptions& options)
-      : take_(take),
+  CoarseSearch(const PreparedTake& prepared, const CoarseOptions& options)
+      : prepared_(prepared),
+        take_(prepared.take),
         options_(options),
         allowed_(options.mean_mm * (1 - margin)),
-        positions_(joint_positions(*take.skeleton, take.channels)),
-        quantiser_(take, reach_per_millimetre * options.mean_mm) {}
+        positions_(joint_positions(*take_.skeleton, take_.channels)),
+        quantiser_(prepared, arm_at_one_mm * std::sqrt(reach_per_millimetre * options.mean_mm)) {}
 
   std::optional<Refinement> run() {
     int step =
@@ -61,8 +65,7 @@ class CoarseSearch {
     }
     if (best->bytes.size() > options_.most_bytes) return std::nullopt;
     const std::size_t contact_bytes = std::min(best->bytes.size(), best->coded.contact_bytes());
-    return Refinement{std::move(best->bytes), std::move(best->decoded), best->max_mm,
-                      contact_bytes};
+    return Refinement{std::move(best->bytes), std::move(best->decoded), contact_bytes};
   }
 
  private:
@@ -70,30 +73,24 @@ class CoarseSearch {
     CodedChannels coded;
     ChannelMatrix decoded;
     int step = 0;
-    double mean_mm = 0, max_mm = 0;
+    double mean_mm = 0;
     std::vector<std::uint8_t> bytes;
   };
 
   Candidate measure(int step, TimeScales scales) {
-    Candidate tried{CodedChannels(*take_.skeleton, {take_.frames(), take_.frame_rate}, scales),
-                    {},
-                    step,
-                    0,
-                    0,
-                    {}};
+    const TakeShape shape{take_.frames(), take_.frame_rate};
+    Candidate tried{
+        CodedChannels(*take_.skeleton, prepared_.header.constants, shape, scales), {}, step, 0, {}};
     quantiser_.set_steps(step_mm(step), tried.coded.steps);
     tried.decoded = quantiser_.quantise(tried.coded);
-    PositionMatrix reached = quantiser_.positions();
+    PositionMatrix reached = positions_of(quantiser_.decoded());
     if (!contacts_.intervals.empty()) {
       tried.coded.contacts = contacts_;
       tried.coded.hold_feet(*take_.skeleton, tried.decoded);
       reached = joint_positions(*take_.skeleton, tried.decoded);
     }
     const auto distances = joint_distances(positions_, reached);
-    for (const float distance : distances) {
-      tried.mean_mm += distance;
-      tried.max_mm = std::max<double>(tried.max_mm, distance);
-    }
+    for (const float distance : distances) tried.mean_mm += distance;
     tried.mean_mm /= static_cast<double>(std::max<std::size_t>(1, distances.size()));
     return tried;
   }
@@ -138,6 +135,7 @@ class CoarseSearch {
     return best;
   }
 
+  const PreparedTake& prepared_;
   const Take& take_;
   const CoarseOptions& options_;
   double allowed_;
@@ -149,17 +147,17 @@ class CoarseSearch {
 
 }  // namespace
 
-std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions& options) {
-  const auto moving = std::ranges::count(moving_channels(take.channels), true);
-  if (take.frames() == 0 ||
-      options.most_bytes < least_channel_bytes * static_cast<std::size_t>(moving))
+std::optional<Refinement> coarse_channels(const PreparedTake& prepared,
+                                          const CoarseOptions& options) {
+  const std::size_t moving = moving_count(prepared.header.constants);
+  if (prepared.take.frames() == 0 || options.most_bytes < least_channel_bytes * moving)
     return std::nullopt;
-  return CoarseSearch(take, options).run();
+  return CoarseSearch(prepared, options).run();
 }
 
-ChannelMatrix decode_coarse_channels(const Skeleton& skeleton, const TakeShape& shape,
-                                     std::span<const std::uint8_t> bytes) {
-  const CodedChannels coded = CodedChannels::decode(skeleton, shape, bytes);
+ChannelMatrix decode_coarse_channels(const Skeleton& skeleton, const ChannelConstants& constants,
+                                     const TakeShape& shape, std::span<const std::uint8_t> bytes) {
+  const CodedChannels coded = CodedChannels::decode(skeleton, constants, shape, bytes);
   ChannelMatrix channels = coded.trajectories(skeleton);
   coded.hold_feet(skeleton, channels);
   return channels;

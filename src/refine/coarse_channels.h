@@ -21,10 +21,11 @@ struct CoarseOptions {
 /// and joints: the coarsest that keeps the mean. It needs no axes, so that takes that are long and
 /// unlike the others of their library are smaller so. `decode_coarse_channels` gives its `decoded`.
 /// Nothing where it would be larger than `most_bytes`.
-std::optional<Refinement> coarse_channels(const Take& take, const CoarseOptions& options);
+std::optional<Refinement> coarse_channels(const PreparedTake& prepared,
+                                          const CoarseOptions& options);
 
 /// Throws Error (damaged).
-ChannelMatrix decode_coarse_channels(const Skeleton& skeleton, const TakeShape& shape,
-                                     std::span<const std::uint8_t> bytes);
+ChannelMatrix decode_coarse_channels(const Skeleton& skeleton, const ChannelConstants& constants,
+                                     const TakeShape& shape, std::span<const std::uint8_t> bytes);
 
 }  // namespace reprise

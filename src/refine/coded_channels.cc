@@ -8,7 +8,6 @@
 #include "quant/bit_model.h"
 #include "quant/catmull_rom.h"
 #include "quant/contact_codec.h"
-#include "refine/pose_metric.h"
 #include "reprise/error.h"
 
 namespace reprise {
@@ -23,11 +22,10 @@ using Eigen::MatrixXd;
 
 }  // namespace
 
-bool channels_fit(std::size_t bytes, const Skeleton& skeleton, long frames) {
+bool channels_fit(std::size_t bytes, std::size_t moving_channels, long frames) {
   constexpr std::size_t most_left_out = 32;
   const std::size_t decisions = (bytes + most_left_out) * most_decisions_per_byte;
-  const auto channels = static_cast<std::size_t>(std::max(1, skeleton.channel_count));
-  return static_cast<std::size_t>(frames) <= decisions / channels;
+  return moving_channels == 0 || static_cast<std::size_t>(frames) <= decisions / moving_channels;
 }
 
 TimeScales time_scales(const TakeShape& take, double seconds) {
@@ -37,12 +35,15 @@ TimeScales time_scales(const TakeShape& take, double seconds) {
   return {levels, std::max(0, levels - 1)};
 }
 
-CodedChannels::CodedChannels(const Skeleton& skeleton, const TakeShape& take, TimeScales time)
-    : scales(time),
+CodedChannels::CodedChannels(const Skeleton& skeleton, const ChannelConstants& still,
+                             const TakeShape& take, TimeScales time)
+    : constants(still),
+      order(skeleton, moving_channels(still)),
+      scales(time),
       frame_rate(take.frame_rate),
       legs(find_legs(skeleton)),
-      shape{take.frames, time.levels, first_level_of(take.frame_rate), coding_parents(skeleton)},
-      steps(skeleton, take.frames, time.block_levels),
+      shape{take.frames, time.levels, first_level_of(take.frame_rate), order.parents},
+      steps(skeleton, order, take.frames, time.block_levels),
       knots(ChannelKnots::Zero(take.frames, static_cast<Index>(shape.parents.size()))),
       stored(take.frames, 0) {}
 
@@ -62,28 +63,27 @@ Eigen::VectorXd CodedChannels::trajectory(std::size_t place) const {
 
 ChannelMatrix CodedChannels::trajectories(const Skeleton& skeleton) const {
   ChannelMatrix result(shape.frames, skeleton.channel_count);
-  const std::vector<int> order = coding_order(skeleton);
-  for (std::size_t i = 0; i < order.size(); ++i) result.col(order[i]) = trajectory(i);
+  for (std::size_t i = 0; i < order.size(); ++i) result.col(order.channels[i]) = trajectory(i);
+  set_constants(constants, result);
   return result;
 }
 
 void CodedChannels::steady_feet(const Skeleton& skeleton, ChannelMatrix& channels) const {
   if (contacts.intervals.empty()) return;
-  steady_contacts(skeleton, legs, frame_rate, contacts, moving_channels(skeleton), channels);
+  steady_contacts(skeleton, legs, frame_rate, contacts, turning_channels(), channels);
 }
 
 void CodedChannels::hold_feet(const Skeleton& skeleton, ChannelMatrix& channels) const {
   if (contacts.intervals.empty()) return;
-  apply_contacts(skeleton, legs, frame_rate, contacts, moving_channels(skeleton), channels);
+  apply_contacts(skeleton, legs, frame_rate, contacts, turning_channels(), channels);
 }
 
-std::vector<bool> CodedChannels::moving_channels(const Skeleton& skeleton) const {
+std::vector<bool> CodedChannels::turning_channels() const {
   // By what is stored, since decoded numbers that are meant to be the same may not be.
-  const std::vector<int> order = coding_order(skeleton);
-  std::vector<bool> moves(order.size());
+  std::vector<bool> moves(constants.size(), false);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const auto column = static_cast<Index>(i);
-    moves[static_cast<std::size_t>(order[i])] =
+    moves[static_cast<std::size_t>(order.channels[i])] =
         steps.base[i] < 0 ? (stored.col(column).array() != stored(0, column)).any()
                           : (knots.col(column).tail(shape.frames - 1).array() != 0).any();
   }
@@ -115,17 +115,17 @@ std::size_t CodedChannels::contact_bytes() const {
   return encoder.finish().size();
 }
 
-CodedChannels CodedChannels::decode(const Skeleton& skeleton, const TakeShape& take,
-                                    std::span<const std::uint8_t> bytes) {
+CodedChannels CodedChannels::decode(const Skeleton& skeleton, const ChannelConstants& constants,
+                                    const TakeShape& take, std::span<const std::uint8_t> bytes) {
   // The number of frames is the row's; it decides how much memory is taken.
-  if (!channels_fit(bytes.size(), skeleton, take.frames)) throw_damaged();
+  if (!channels_fit(bytes.size(), moving_count(constants), take.frames)) throw_damaged();
   RangeDecoder decoder(bytes);
   TimeScales time;
   time.levels = static_cast<int>(decoder.decode_plain(TimeScales::bits));
   time.block_levels = static_cast<int>(decoder.decode_plain(TimeScales::bits));
   if (time.levels > TimeScales::most || time.block_levels > TimeScales::most) throw_damaged();
   if (time.levels > 0 && (Index{1} << time.levels) >= take.frames) throw_damaged();
-  CodedChannels coded(skeleton, take, time);
+  CodedChannels coded(skeleton, constants, take, time);
   if (!coded.steps.decode(decoder)) throw_damaged();
   const ChannelKnotShape& shape = coded.shape;
   for (std::size_t i = 0; i < coded.steps.base.size(); ++i) {

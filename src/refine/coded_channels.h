@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "contacts/contact_detection.h"
+#include "model/constant_channels.h"
 #include "refine/channel_coder.h"
+#include "refine/coding_order.h"
 #include "refine/step_grid.h"
 #include "reprise/model/take.h"
 
@@ -25,15 +27,18 @@ struct TimeScales {
 /// Coarsest knots about `seconds` apart, and at least two of them where there are two frames.
 TimeScales time_scales(const TakeShape& take, double seconds);
 
-/// Whether so many coded bytes can hold so many frames: each knot is a decision, and what is stored
-/// as it is takes more. What an encoder leaves out at the end counts, too.
-bool channels_fit(std::size_t bytes, const Skeleton& skeleton, long frames);
+/// Whether so many coded bytes can hold so many frames of so many channels that move: each knot is
+/// a decision, and what is stored as it is takes more. What an encoder leaves out at the end
+/// counts, too.
+bool channels_fit(std::size_t bytes, std::size_t moving_channels, long frames);
 
 struct CodedChannels {
-  CodedChannels(const Skeleton& skeleton, const TakeShape& take, TimeScales scales);
+  /// Channels that do not move (`constants`) are not coded.
+  CodedChannels(const Skeleton& skeleton, const ChannelConstants& constants, const TakeShape& take,
+                TimeScales scales);
   /// Throws Error (damaged).
-  static CodedChannels decode(const Skeleton& skeleton, const TakeShape& take,
-                              std::span<const std::uint8_t> bytes);
+  static CodedChannels decode(const Skeleton& skeleton, const ChannelConstants& constants,
+                              const TakeShape& take, std::span<const std::uint8_t> bytes);
 
   /// Frames of the channel at a place of the coding order, decoded; contacts change it yet.
   Eigen::VectorXd trajectory(std::size_t place) const;
@@ -44,12 +49,15 @@ struct CodedChannels {
   void steady_feet(const Skeleton& skeleton, ChannelMatrix& channels) const;
   /// The last step of decoding, where just a mean holds: feet are put where they stand.
   void hold_feet(const Skeleton& skeleton, ChannelMatrix& channels) const;
-  /// One a channel of a frame: its numbers say more than one value for all frames.
-  std::vector<bool> moving_channels(const Skeleton& skeleton) const;
+  /// One a channel of a frame: its numbers say more than one value for all frames. Contacts turn no
+  /// others.
+  std::vector<bool> turning_channels() const;
   std::vector<std::uint8_t> encode() const;
   /// About as many bytes as contacts take up of those of `encode`.
   std::size_t contact_bytes() const;
 
+  ChannelConstants constants;
+  CodingOrder order;
   TimeScales scales;
   double frame_rate;
   std::vector<Leg> legs;

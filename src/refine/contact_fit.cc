@@ -59,15 +59,16 @@ void add_rest(const ContactInterval& contact, long unit, const std::vector<bool>
 
 }  // namespace
 
-ContactFit::ContactFit(const Take& take, const PositionMatrix& positions, double bound_mm,
+ContactFit::ContactFit(const Take& take, const PoseTrack& source, const PoseBounds& bounds,
                        const CodedChannels& plain, const Refinement& refinement)
     : take_(take),
-      positions_(positions),
-      bound_(bound_mm),
+      source_(source),
+      bounds_(bounds),
+      positions_(positions_of(source)),
       plain_(plain),
       refinement_(refinement),
-      places_(joint_positions(*take.skeleton, refinement.decoded)),
-      skate_(skate(places_)),
+      poses_(pose_track(*take.skeleton, refinement.decoded)),
+      skate_(skate(poses_)),
       legs_(legs_of_joints(*take.skeleton, plain.legs)),
       placed_(legs_.size(), false) {
   for (std::size_t j = 0; j < legs_.size(); ++j) {
@@ -79,14 +80,13 @@ ContactFit::ContactFit(const Take& take, const PositionMatrix& positions, double
   }
 }
 
-std::optional<double> ContactFit::skate(const PositionMatrix& places) const {
-  const auto skate = foot_skate(*take_.skeleton, positions_, places, take_.frame_rate);
+std::optional<double> ContactFit::skate(const PoseTrack& poses) const {
+  const auto skate = foot_skate(*take_.skeleton, positions_, positions_of(poses), take_.frame_rate);
   if (!skate) return std::nullopt;
   return skate->decoded / std::max(skate->original, std::numeric_limits<double>::min());
 }
 
-void ContactFit::hold(const CodedChannels& coded, ChannelMatrix& channels,
-                      PositionMatrix& places) const {
+void ContactFit::hold(const CodedChannels& coded, ChannelMatrix& channels, PoseTrack& poses) const {
   coded.steady_feet(*take_.skeleton, channels);
   const Skeleton& skeleton = *take_.skeleton;
   std::vector<bool> held(static_cast<std::size_t>(take_.frames()), false);
@@ -104,23 +104,25 @@ void ContactFit::hold(const CodedChannels& coded, ChannelMatrix& channels,
       const JointFrame parent =
           joint.parent < 0 ? JointFrame{} : joints[static_cast<std::size_t>(joint.parent)];
       joints[j] = place_joint(skeleton, joint, frame, parent);
-      places.row(f).segment<3>(3 * static_cast<Index>(j)) = joints[j].position.transpose();
+      poses[j][static_cast<std::size_t>(f)] = joints[j];
     }
   }
 }
 
-bool ContactFit::cut(const PositionMatrix& places, double limit_mm, TakeContacts& contacts) const {
+bool ContactFit::cut(const PoseTrack& poses, const PoseBounds& limits,
+                     TakeContacts& contacts) const {
   const long unit = contact_unit(take_.frame_rate);
   const std::vector<bool> good(static_cast<std::size_t>((take_.frames() + unit - 1) / unit), false);
   std::vector<std::vector<bool>> bad(plain_.legs.size(), good);
-  for (Index f = 0; f < places.rows(); ++f) {
-    for (std::size_t j = 0; j < legs_.size(); ++j) {
-      if (legs_[j] < 0) continue;
-      const auto at = 3 * static_cast<Index>(j);
-      const double moved =
-          (places.row(f).segment<3>(at) - positions_.row(f).segment<3>(at)).squaredNorm();
-      if (moved <= limit_mm * limit_mm) continue;
-      bad[static_cast<std::size_t>(legs_[j])][static_cast<std::size_t>(f / unit)] = true;
+  for (std::size_t j = 0; j < legs_.size(); ++j) {
+    if (legs_[j] < 0) continue;
+    for (std::size_t f = 0; f < poses[j].size(); ++f) {
+      const JointFrame &source = source_[j][f], &moved = poses[j][f];
+      if (limits.place_ratio(source, moved) <= 1 && limits.turn_ratio(source, moved) <= 1 &&
+          (f == 0 || !limits.pops(*take_.skeleton, source_, poses, j, f))) {
+        continue;
+      }
+      bad[static_cast<std::size_t>(legs_[j])][f / static_cast<std::size_t>(unit)] = true;
     }
   }
   const std::vector<std::size_t> legs = legs_of_points(plain_.legs);
@@ -136,9 +138,9 @@ bool ContactFit::cut(const PositionMatrix& places, double limit_mm, TakeContacts
 void ContactFit::cut_by_source(CodedChannels& coded) const {
   for (int round = 0; round < most_rounds; ++round) {
     ChannelMatrix channels = take_.channels;
-    PositionMatrix moved = positions_;
+    PoseTrack moved = source_;
     hold(coded, channels, moved);
-    if (!cut(moved, Constants::most_moved * bound_, coded.contacts)) return;
+    if (!cut(moved, bounds_.part(Constants::most_moved), coded.contacts)) return;
   }
 }
 
@@ -153,9 +155,9 @@ TakeContacts ContactFit::choose() const {
     tried.contacts = {all.intervals, hold_index};
     cut_by_source(tried);
     ChannelMatrix channels = refinement_.decoded;
-    PositionMatrix places = places_;
-    hold(tried, channels, places);
-    const auto held = skate(places);
+    PoseTrack poses = poses_;
+    hold(tried, channels, poses);
+    const auto held = skate(poses);
     if (!held || *held >= least) continue;
     least = *held;
     best = tried.contacts;
@@ -163,8 +165,8 @@ TakeContacts ContactFit::choose() const {
   return best;
 }
 
-bool ContactFit::pays(const PositionMatrix& places, std::size_t bytes) const {
-  const auto held = skate(places);
+bool ContactFit::pays(const PoseTrack& poses, std::size_t bytes) const {
+  const auto held = skate(poses);
   const auto most = Constants::most_bytes * static_cast<double>(refinement_.bytes.size());
   return held && skate_ && *held < *skate_ && static_cast<double>(bytes) <= most;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "refine/coded_channels.h"
+#include "refine/pose_bounds.h"
 #include "refine/refinement.h"
 #include "reprise/model/kinematics.h"
 #include "reprise/model/take.h"
@@ -27,9 +28,9 @@ struct ContactFitConstants {
 
 class ContactFit {
  public:
-  /// `positions` are the take's (frames x 3*joints, mm); keeps references to both. `bound_mm` is
-  /// what joints keep; `plain` and `refinement` are the take without contacts, which have to stay.
-  ContactFit(const Take& take, const PositionMatrix& positions, double bound_mm,
+  /// `source` is the take's; keeps references to both. `bounds` are what joints keep; `plain` and
+  /// `refinement` are the take without contacts, which have to stay.
+  ContactFit(const Take& take, const PoseTrack& source, const PoseBounds& bounds,
              const CodedChannels& plain, const Refinement& refinement);
 
   /// The contacts and the loosest hold with which feet slide as little as the source's (foot skate,
@@ -37,29 +38,30 @@ class ContactFit {
   /// nothing is known of them.
   TakeContacts choose() const;
 
-  /// Holds feet in channels that are at `places` without, and moves these.
-  void hold(const CodedChannels& coded, ChannelMatrix& channels, PositionMatrix& places) const;
+  /// Holds feet in channels that are at `poses` without, and moves these.
+  void hold(const CodedChannels& coded, ChannelMatrix& channels, PoseTrack& poses) const;
 
   /// Ends contacts of legs in the units of time in which a joint of the leg is further from the
-  /// source than `limit_mm`; true if there were such contacts.
-  bool cut(const PositionMatrix& places, double limit_mm, TakeContacts& contacts) const;
+  /// source than `limits`; true if there were such contacts.
+  bool cut(const PoseTrack& poses, const PoseBounds& limits, TakeContacts& contacts) const;
 
-  /// True if what is at `places` in so many bytes slides less than without contacts, and is not
+  /// True if what is at `poses` in so many bytes slides less than without contacts, and is not
   /// much larger.
-  bool pays(const PositionMatrix& places, std::size_t bytes) const;
+  bool pays(const PoseTrack& poses, std::size_t bytes) const;
 
  private:
   /// Foot skate by foot skate of the source; none without feet or contacts.
-  std::optional<double> skate(const PositionMatrix& places) const;
+  std::optional<double> skate(const PoseTrack& poses) const;
   /// Leaves out what would move the source itself too far.
   void cut_by_source(CodedChannels& coded) const;
 
   const Take& take_;
-  const PositionMatrix& positions_;
-  double bound_;
+  const PoseTrack& source_;
+  PoseBounds bounds_;
+  PositionMatrix positions_;  ///< of the source, frames x 3*joints, mm
   const CodedChannels& plain_;
   const Refinement& refinement_;
-  PositionMatrix places_;  ///< of `refinement_`
+  PoseTrack poses_;  ///< of `refinement_`
   std::optional<double> skate_;
   std::vector<int> legs_;     ///< of each joint: the leg that it is turned by, or -1
   std::vector<bool> placed_;  ///< of each joint: a leg's, or above one

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "model/angle_units.h"
-#include "refine/pose_metric.h"
 
 namespace reprise {
 namespace {
@@ -54,13 +53,13 @@ std::span<const double> frame_of(const Take& take, Index f) {
 
 }  // namespace
 
-JointPlacement::JointPlacement(const Take& take)
+JointPlacement::JointPlacement(const Take& take, const CodingOrder& order)
     : take_(take),
-      order_(coding_order(*take.skeleton)),
-      sine_(take.frames(), take.channels.cols()),
-      cosine_(take.frames(), take.channels.cols()) {
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const auto radians = take.channels.col(order_[i]).array() * radians_per_degree;
+      order_(order),
+      sine_(take.frames(), static_cast<Index>(order.size())),
+      cosine_(take.frames(), static_cast<Index>(order.size())) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto radians = take.channels.col(order.channels[i]).array() * radians_per_degree;
     sine_.col(static_cast<Index>(i)) = radians.sin().cast<float>();
     cosine_.col(static_cast<Index>(i)) = radians.cos().cast<float>();
   }
@@ -68,7 +67,10 @@ JointPlacement::JointPlacement(const Take& take)
   progress_.decoded.resize(static_cast<std::size_t>(take.frames()));
 }
 
-void JointPlacement::begin(std::size_t j, const PlacedJoint* parent) {
+void JointPlacement::begin(std::size_t j) { begin(j, {}, {}); }
+
+void JointPlacement::begin(std::size_t j, std::span<const JointFrame> source,
+                           std::span<const JointFrame> decoded) {
   joint_ = j;
   const Skeleton& skeleton = *take_.skeleton;
   const Joint& joint = skeleton.joints[j];
@@ -92,8 +94,8 @@ void JointPlacement::begin(std::size_t j, const PlacedJoint* parent) {
       }
       return result;
     };
-    progress_.source[at] = start(parent == nullptr ? nullptr : &parent->source[at]);
-    progress_.decoded[at] = start(parent == nullptr ? nullptr : &parent->decoded[at]);
+    progress_.source[at] = start(source.empty() ? nullptr : &source[at]);
+    progress_.decoded[at] = start(decoded.empty() ? nullptr : &decoded[at]);
   }
 }
 
@@ -151,8 +153,20 @@ void JointPlacement::apply(int slot, std::size_t place,
   for (Index f = 0; f < take_.frames(); ++f) {
     JointFrame& frame = progress_.decoded[static_cast<std::size_t>(f)];
     const Vector3d moved = take_.skeleton->millimetres_per_unit *
-                           (decoded[f] - take_.channels(f, order_[place])) * along;
+                           (decoded[f] - take_.channels(f, order_.channels[place])) * along;
     frame.position += fixed ? moved : Vector3d(frame.rotation * moved);
+  }
+}
+
+void JointPlacement::apply_constant(int slot) {
+  const Joint& joint = take_.skeleton->joints[joint_];
+  const auto kind = joint.channels[static_cast<std::size_t>(slot)];
+  // A place or a stretch is that of the source already.
+  if (!is_rotation(kind) || take_.frames() == 0) return;
+  const double radians = take_.channels(0, joint.first_channel + slot) * radians_per_degree;
+  const double sine = std::sin(radians), cosine = std::cos(radians);
+  for (auto* frames : {&progress_.source, &progress_.decoded}) {
+    for (JointFrame& frame : *frames) turn(frame.rotation, axis_of(kind), sine, cosine);
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "refine/coding_order.h"
 #include "reprise/model/kinematics.h"
 #include "reprise/model/take.h"
 
@@ -18,17 +20,22 @@ struct PlacedJoint {
 
 class JointPlacement {
  public:
-  /// Keeps a reference to the take.
-  explicit JointPlacement(const Take& take);
+  /// Keeps references.
+  JointPlacement(const Take& take, const CodingOrder& order);
 
-  /// Starts where a joint's parent is; the root's (null) is the world.
-  void begin(std::size_t joint, const PlacedJoint* parent);
+  /// Starts a joint without a parent.
+  void begin(std::size_t joint);
+  /// Starts where a joint's parent is.
+  void begin(std::size_t joint, std::span<const JointFrame> source,
+             std::span<const JointFrame> decoded);
   /// Comes to a channel (`slot` in the joint) without applying it: one that stretches the joint's
   /// bone finds it in its place.
   void come_to(int slot);
-  /// Applies it; `place`: its place in coding order, `decoded`: its numbers, frames (degrees or the
-  /// file's unit).
+  /// Applies a channel that moves; `place`: its place in coding order, `decoded`: its numbers,
+  /// frames (degrees or the file's unit).
   void apply(int slot, std::size_t place, const Eigen::Ref<const Eigen::VectorXd>& decoded);
+  /// Applies a channel that does not move, which is decoded as the source has it.
+  void apply_constant(int slot);
   /// Ends a joint whose channels were all applied: gives its decoded frames.
   void end(std::vector<JointFrame>& decoded);
 
@@ -40,7 +47,7 @@ class JointPlacement {
   void turn_by(std::size_t place, int axis, const Eigen::Ref<const Eigen::VectorXd>& degrees);
 
   const Take& take_;
-  std::vector<int> order_;
+  const CodingOrder& order_;
   Eigen::MatrixXf sine_, cosine_;  ///< of the source, frames x channels in coding order
   std::size_t joint_ = 0;
   bool has_bone_ = false;  ///< the joint's bone is in its place, or it has none

@@ -40,72 +40,12 @@ Twist shifting(const Vector3d& direction) {
 
 }  // namespace
 
-std::vector<int> slots_outwards(const Joint& joint) {
-  std::vector<int> slots;
-  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-    if (is_position(joint.channels[c])) slots.push_back(static_cast<int>(c));
-  }
-  slots.insert(slots.end(), joint.rotation_slots.begin(), joint.rotation_slots.end());
-  for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-    if (joint.channels[c] == Channel::length) slots.push_back(static_cast<int>(c));
-  }
-  return slots;
-}
-
-std::vector<int> coding_order(const Skeleton& skeleton) {
-  std::vector<int> order;
-  for (const Joint& joint : skeleton.joints) {
-    for (const int slot : slots_outwards(joint)) order.push_back(joint.first_channel + slot);
-  }
-  return order;
-}
-
-std::vector<int> coding_parents(const Skeleton& skeleton) {
-  std::vector<int> parents, last(skeleton.joints.size(), -1);
-  int place = 0;
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const Joint& joint = skeleton.joints[j];
-    int before = joint.parent < 0 ? -1 : last[joint.parent];
-    for (std::size_t c = 0; c < joint.channels.size(); ++c) {
-      parents.push_back(before);
-      before = place++;
-    }
-    last[j] = before;
-  }
-  return parents;
-}
-
-std::vector<int> moving_places(const Skeleton& skeleton) {
-  const std::vector<int> parents = coding_parents(skeleton);
-  std::vector<int> result, last;
-  int place = 0;
-  for (const Joint& joint : skeleton.joints) {
-    const auto count = static_cast<int>(joint.channels.size());
-    const int above = joint.parent < 0 ? -1 : last[static_cast<std::size_t>(joint.parent)];
-    // A BVH joint and a root turn about themselves.
-    int moves = count > 0 ? place + count - 1 : above;
-    if (skeleton.format == MotionFormat::bvh) {
-      const auto turns = static_cast<int>(joint.rotation_order.size());
-      moves = count > turns ? place + count - turns - 1 : above;
-    }
-    place += count;
-    last.push_back(count > 0 ? place - 1 : above);
-    result.push_back(moves);
-  }
-  return result;
-}
-
-PoseMetric::PoseMetric(const Skeleton& skeleton, double off_bone_mm)
+PoseMetric::PoseMetric(const Skeleton& skeleton, const CodingOrder& order, double off_bone_mm)
     : skeleton_(skeleton),
+      order_(order),
       off_bone_mm_(off_bone_mm),
       frames_(skeleton.joints.size()),
-      inertia_(skeleton.joints.size()) {
-  int place = 0;
-  for (const Joint& joint : skeleton.joints) {
-    places_.emplace_back();
-    for (std::size_t c = 0; c < joint.channels.size(); ++c) places_.back().push_back(place++);
-  }
-}
+      inertia_(skeleton.joints.size()) {}
 
 void PoseMetric::measure(std::span<const double> channels, std::span<const double> weights,
                          std::span<ChannelMetric> metrics) {
@@ -121,7 +61,7 @@ void PoseMetric::measure(std::span<const double> channels, std::span<const doubl
     const JointFrame& parent = joint.parent < 0 ? world : frames_[joint.parent];
     const Vector3d place = frames_[j].position - origin;
     const Matrix3d base = bvh ? parent.rotation : Matrix3d(parent.rotation * joint.axis);
-    const std::vector<int> slots = slots_outwards(joint);
+    const std::vector<CodedSlot>& slots = order_.slots[j];
     // Pivot of an ASF bone: its parent's far end, moved by its own position channels.
     Vector3d pivot = place;
     if (!bvh && joint.parent >= 0) {
@@ -148,7 +88,7 @@ void PoseMetric::measure(std::span<const double> channels, std::span<const doubl
     std::size_t turn = axes.size();
     bool placed = !bvh;
     for (std::size_t s = slots.size(); s-- > 0;) {
-      const Channel channel = joint.channels[slots[s]];
+      const Channel channel = joint.channels[static_cast<std::size_t>(slots[s].slot)];
       Twist motion;
       if (is_rotation(channel)) {
         motion = turning(axes[--turn], pivot);
@@ -163,7 +103,8 @@ void PoseMetric::measure(std::span<const double> channels, std::span<const doubl
         motion = shifting(skeleton_.millimetres_per_unit *
                           (joint.parent < 0 ? along : Vector3d(frames_[j].rotation * along)));
       }
-      ChannelMetric& metric = metrics[places_[j][s]];
+      if (slots[s].place < 0) continue;
+      ChannelMetric& metric = metrics[static_cast<std::size_t>(slots[s].place)];
       metric.motion = motion;
       const Twist momentum = inertia * motion;
       metric.weight = std::max(motion.dot(momentum), least_weight);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "refine/coding_order.h"
 #include "reprise/model/kinematics.h"
 #include "reprise/model/take.h"
 
@@ -18,39 +19,28 @@ namespace reprise {
 /// origin.
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-/// One channel of one frame, in the order of `coding_order`.
+/// One channel of one frame, in coding order.
 struct ChannelMetric {
   Twist motion;        ///< what one unit of the channel does to all that hangs on it
   Twist compensation;  ///< by its product with the error so far: the channel error to be made up
   double weight = 0;   ///< summed squares (mm^2) for a squared unit of what is not made up
 };
 
-/// Indices of a joint's channels from the root outwards: places, turns, stretch.
-std::vector<int> slots_outwards(const Joint& joint);
-
-/// Channels from the root outwards: a channel comes after all that it hangs on.
-std::vector<int> coding_order(const Skeleton& skeleton);
-
-/// For each place in the coding order, the last place before it that it hangs on, or -1.
-std::vector<int> coding_parents(const Skeleton& skeleton);
-
-/// For each joint, the last place in the coding order that moves it, or -1.
-std::vector<int> moving_places(const Skeleton& skeleton);
-
 class PoseMetric {
  public:
   /// Turns that move no joint are held, too: as if each turning joint carried points
-  /// `off_bone_mm` away from it.
-  PoseMetric(const Skeleton& skeleton, double off_bone_mm);
+  /// `off_bone_mm` away from it. Channels that are not in the order do not give way. Keeps
+  /// references.
+  PoseMetric(const Skeleton& skeleton, const CodingOrder& order, double off_bone_mm);
 
-  /// `channels` is a frame; `weights` one number a joint. Fills one metric a channel.
+  /// `channels` is a frame; `weights` one number a joint. Fills one metric a place of the order.
   void measure(std::span<const double> channels, std::span<const double> weights,
                std::span<ChannelMetric> metrics);
 
  private:
   const Skeleton& skeleton_;
+  const CodingOrder& order_;
   double off_bone_mm_;
-  std::vector<std::vector<int>> places_;  ///< of each joint's channels in the coding order
   std::vector<JointFrame> frames_;
   std::vector<Eigen::Matrix<double, 6, 6>> inertia_;
 };

@@ -8,13 +8,13 @@
 
 namespace reprise {
 
-Refinement refine(const Take& take, const RefinementOptions& options) {
-  return Refiner(take, options).run();
+Refinement refine(const PreparedTake& prepared, const RefinementOptions& options) {
+  return Refiner(prepared, options).run();
 }
 
-ChannelMatrix decode_refinement(const Skeleton& skeleton, const TakeShape& shape,
-                                std::span<const std::uint8_t> bytes) {
-  const CodedChannels coded = CodedChannels::decode(skeleton, shape, bytes);
+ChannelMatrix decode_refinement(const Skeleton& skeleton, const ChannelConstants& constants,
+                                const TakeShape& shape, std::span<const std::uint8_t> bytes) {
+  const CodedChannels coded = CodedChannels::decode(skeleton, constants, shape, bytes);
   ChannelMatrix channels = coded.trajectories(skeleton);
   coded.steady_feet(skeleton, channels);
   return channels;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "quant/small_number.h"
-#include "refine/pose_metric.h"
 
 namespace reprise {
 namespace {
@@ -96,21 +95,20 @@ int step_index(double step) {
       Constants::most / Constants::per_base * Constants::per_base);
 }
 
-StepGrid::StepGrid(const Skeleton& skeleton, long frames, int levels)
+StepGrid::StepGrid(const Skeleton& skeleton, const CodingOrder& order, long frames, int levels)
     : levels_(levels), half_((Index{1} << levels) / 2) {
-  std::vector<int> group_of_joint;
-  for (const Joint& joint : skeleton.joints) {
-    const int above =
-        joint.parent < 0 ? -1 : group_of_joint[static_cast<std::size_t>(joint.parent)];
-    if (joint.channels.empty()) {
-      group_of_joint.push_back(above);
-      continue;
-    }
-    group_of_joint.push_back(static_cast<int>(parents_.size()));
-    parents_.push_back(above);
-    groups_.insert(groups_.end(), joint.channels.size(), group_of_joint.back());
-    for (const int slot : slots_outwards(joint)) {
-      turns_.push_back(is_rotation(joint.channels[static_cast<std::size_t>(slot)]));
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    const int above = joint.parent < 0 ? -1 : joints_[static_cast<std::size_t>(joint.parent)];
+    joints_.push_back(above);
+    for (const CodedSlot& slot : order.slots[j]) {
+      if (slot.place < 0) continue;
+      if (joints_.back() == above) {
+        joints_.back() = static_cast<int>(parents_.size());
+        parents_.push_back(above);
+      }
+      groups_.push_back(joints_.back());
+      turns_.push_back(is_rotation(joint.channels[static_cast<std::size_t>(slot.slot)]));
     }
   }
   base.assign(groups_.size(), Constants::one);

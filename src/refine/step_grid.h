@@ -8,7 +8,7 @@
 
 #include "quant/range_coder.h"
 #include "quant/take_codec.h"
-#include "reprise/model/skeleton.h"
+#include "refine/coding_order.h"
 
 namespace reprise {
 
@@ -30,12 +30,16 @@ int step_index(double step);
 class StepGrid {
  public:
   StepGrid() = default;
-  StepGrid(const Skeleton& skeleton, long frames, int levels);
+  StepGrid(const Skeleton& skeleton, const CodingOrder& order, long frames, int levels);
 
   /// Stretches of time are 2^levels frames long, around the frames at multiples of that.
   Eigen::Index block(Eigen::Index frame) const { return (frame + half_) >> levels_; }
   Eigen::Index first_frame(Eigen::Index block) const { return (block << levels_) - half_; }
   int group(std::size_t place) const { return groups_[place]; }
+  /// The group of a joint's channels, or of the nearest joint above it that has some; -1 for none.
+  int group_of_joint(std::size_t joint) const { return joints_[joint]; }
+  /// The group that a group hangs on, or -1.
+  int parent_of_group(int group) const { return parents_[static_cast<std::size_t>(group)]; }
   int offset(std::size_t place, Eigen::Index frame) const {
     return offsets(block(frame), groups_[place]);
   }
@@ -50,13 +54,14 @@ class StepGrid {
   /// Of each channel in coding order, a multiple of per_base; -1: its numbers are stored as they
   /// are.
   std::vector<int> base;
-  /// blocks x joints with channels: half octaves finer.
+  /// blocks x joints with channels that move: half octaves finer.
   Eigen::Matrix<std::int8_t, Eigen::Dynamic, Eigen::Dynamic> offsets;
 
  private:
   int levels_ = 0;
   Eigen::Index half_ = 0;
   std::vector<int> groups_;   ///< of each channel
+  std::vector<int> joints_;   ///< of each joint: its group, or the nearest one above, or -1
   std::vector<bool> turns_;   ///< of each channel: it is a rotation
   std::vector<int> parents_;  ///< of each group: the group it hangs on, or -1
 };

@@ -77,6 +77,7 @@ enum class LayerKind : std::uint8_t {
 struct LayerRecord {
   LayerKind kind = LayerKind::coefficients;
   double limit_mm = 0;   ///< what the layer promises, to a micrometre; 0 of a text
+  double limit_deg = 0;  ///< the same, to a thousandth of a degree; 0 where it promises none
   Bytes data;            ///< opaque here
   ShortDigest digest{};  ///< of the data; filled in by the store
 };
@@ -87,6 +88,7 @@ struct TakeRecord {
   std::int64_t proportions = 0;
   std::int64_t space = 0;
   Bytes error_quantiles;            ///< sketch of the distances, opaque here
+  Bytes turn_quantiles;             ///< the same of the turns
   std::vector<LayerRecord> layers;  ///< at least one, at most `most_layers`
   /// Bytes of the layers by what they are spent on; they add up to all of them.
   std::vector<std::pair<std::string, std::uint64_t>> spent;
@@ -198,9 +200,9 @@ class ArchiveStore {
   std::vector<ClipRecord> clips_with_prefix(const std::string& hexadecimal) const;
   std::vector<SkeletonInfo> skeletons() const;
   std::vector<std::string> subjects() const;
-  /// All but error_mm.p99, which needs the sketches: they are handed to `sketch` take by take with
-  /// the number of distances (joints x frames) that each stands for.
-  ArchiveStats stats(const std::function<void(const Bytes&, std::uint64_t)>& sketch) const;
+  /// All but the 99th percentiles of errors, which need the sketches: takes are handed to `sketch`
+  /// with the number of distances (joints x frames) that each of theirs stands for.
+  ArchiveStats stats(const std::function<void(const TakeRecord&, std::uint64_t)>& sketch) const;
   /// What a take is, wherever it stands: the digest of everything that is stored of it.
   Digest content_of(std::int64_t take) const;
   Digest digest_of_space(std::int64_t id) const;

@@ -6,13 +6,13 @@ namespace reprise {
 Fidelity fidelity_of(FidelityTier tier) {
   switch (tier) {
     case FidelityTier::preview:
-      return {tier, FidelityLimits::preview_mean_mm};
+      return {tier, FidelityLimits::preview_mean_mm, 0};
     case FidelityTier::fine:
-      return {tier, FidelityLimits::fine_mm};
+      return {tier, FidelityLimits::fine_mm, FidelityLimits::fine_deg};
     case FidelityTier::exact:
-      return {tier, 0};
+      return {tier, 0, 0};
     default:
-      return {tier, FidelityLimits::standard_mm};
+      return {tier, FidelityLimits::standard_mm, FidelityLimits::standard_deg};
   }
 }
 

@@ -73,6 +73,9 @@ class Packer {
     column([](const StoredTake& t) {
       return std::bit_cast<std::uint64_t>(t.record.info.fidelity.limit_mm);
     });
+    column([](const StoredTake& t) {
+      return std::bit_cast<std::uint64_t>(t.record.info.fidelity.limit_deg);
+    });
     // Files of a kind have much the same size a frame.
     const auto frames = [](const StoredTake& t) {
       return static_cast<std::uint64_t>(std::max(1L, t.record.info.frames));
@@ -91,12 +94,34 @@ class Packer {
     error(&PositionErrors::rms);
     error(&PositionErrors::p99);
     error(&PositionErrors::max);
-    const auto sketch_size = [](const StoredTake& t) { return t.record.error_quantiles.size(); };
-    column(sketch_size);
+    const auto turn = [&](double RotationErrors::*member) {
+      column([member](const StoredTake& t) {
+        return static_cast<std::uint64_t>(micrometres(t.record.info.rotation_deg.*member));
+      });
+    };
+    turn(&RotationErrors::mean);
+    turn(&RotationErrors::p99);
+    turn(&RotationErrors::max);
+    for (const auto worst : {&TakeInfo::worst_place, &TakeInfo::worst_turn}) {
+      column([worst](const StoredTake& t) {
+        return static_cast<std::uint64_t>((t.record.info.*worst).joint);
+      });
+      column([worst](const StoredTake& t) {
+        return static_cast<std::uint64_t>((t.record.info.*worst).frame);
+      });
+    }
+    pack_sketch(&TakeRecord::error_quantiles);
+    pack_sketch(&TakeRecord::turn_quantiles);
+  }
+
+  void pack_sketch(Bytes TakeRecord::*sketch) {
+    const auto size = [sketch](const StoredTake& t) { return (t.record.*sketch).size(); };
+    column(size);
     // Quantiles rise.
-    columns_by_place(sketch_size, [](const StoredTake& t, std::size_t q) {
-      const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
-      return static_cast<std::uint64_t>((t.record.error_quantiles[q] - before) & 255);
+    columns_by_place(size, [sketch](const StoredTake& t, std::size_t q) {
+      const Bytes& quantiles = t.record.*sketch;
+      const int before = q == 0 ? 0 : quantiles[q - 1];
+      return static_cast<std::uint64_t>((quantiles[q] - before) & 255);
     });
   }
 
@@ -111,6 +136,9 @@ class Packer {
     });
     columns_by_place(count, [&](const StoredTake& t, std::size_t i) {
       return static_cast<std::uint64_t>(micrometres(layer(t, i).limit_mm));
+    });
+    columns_by_place(count, [&](const StoredTake& t, std::size_t i) {
+      return static_cast<std::uint64_t>(micrometres(layer(t, i).limit_deg));
     });
     columns_by_place(count, size_of_layer);
     columns_by_place(count, [](const StoredTake& t, std::size_t i) -> std::uint64_t {

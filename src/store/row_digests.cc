@@ -15,12 +15,21 @@ void add_take(Hasher& hasher, const TakeRecord& record) {
   hasher.add_number(info.frames);
   hasher.add_number(static_cast<int>(info.fidelity.tier));
   hasher.add_real(info.fidelity.limit_mm);
+  hasher.add_real(info.fidelity.limit_deg);
   hasher.add_number(static_cast<std::int64_t>(info.text_bytes));
   hasher.add_number(micrometres(info.error_mm.mean));
   hasher.add_number(micrometres(info.error_mm.rms));
   hasher.add_number(micrometres(info.error_mm.p99));
   hasher.add_number(micrometres(info.error_mm.max));
   hasher.add_bytes(record.error_quantiles);
+  hasher.add_number(micrometres(info.rotation_deg.mean));
+  hasher.add_number(micrometres(info.rotation_deg.p99));
+  hasher.add_number(micrometres(info.rotation_deg.max));
+  for (const JointAt& worst : {info.worst_place, info.worst_turn}) {
+    hasher.add_number(worst.joint);
+    hasher.add_number(worst.frame);
+  }
+  hasher.add_bytes(record.turn_quantiles);
   for (const auto& [part, bytes] : record.spent) {
     hasher.add_number(static_cast<std::int64_t>(part_number(part)));
     hasher.add_number(static_cast<std::int64_t>(bytes));
@@ -68,6 +77,7 @@ Digest take_content(const TakeRecord& record, const Digest& proportions, const D
   for (std::size_t i = 0; i < layers.size(); ++i) {
     hasher.add_number(static_cast<int>(record.layers[i].kind));
     hasher.add_number(micrometres(record.layers[i].limit_mm));
+    hasher.add_number(micrometres(record.layers[i].limit_deg));
     hasher.add_bytes(layers[i]);
   }
   for (const ClipRecord& clip : clips) {

@@ -40,9 +40,9 @@ std::vector<std::string> ArchiveStore::subjects() const {
 }
 
 ArchiveStats ArchiveStore::stats(
-    const std::function<void(const Bytes&, std::uint64_t)>& sketch) const {
+    const std::function<void(const TakeRecord&, std::uint64_t)>& sketch) const {
   ArchiveStats stats;
-  double sum = 0, squares = 0, distances = 0;
+  double sum = 0, squares = 0, turns = 0, distances = 0;
   std::map<std::int64_t, std::size_t> joints;
   std::uint64_t motion = 0;
   for_each_take([&](const TakeRecord& record) {
@@ -61,12 +61,21 @@ ArchiveStats ArchiveStore::stats(
     sum += info.error_mm.mean * static_cast<double>(weight);
     squares += info.error_mm.rms * info.error_mm.rms * static_cast<double>(weight);
     distances += static_cast<double>(weight);
-    stats.error_mm.max = std::max(stats.error_mm.max, info.error_mm.max);
-    sketch(record.error_quantiles, weight);
+    turns += info.rotation_deg.mean * static_cast<double>(weight);
+    if (info.error_mm.max > stats.error_mm.max) {
+      stats.error_mm.max = info.error_mm.max;
+      stats.worst_place_take = info.name;
+    }
+    if (info.rotation_deg.max > stats.rotation_deg.max) {
+      stats.rotation_deg.max = info.rotation_deg.max;
+      stats.worst_turn_take = info.name;
+    }
+    sketch(record, weight);
   });
   if (distances > 0) {
     stats.error_mm.mean = sum / distances;
     stats.error_mm.rms = std::sqrt(squares / distances);
+    stats.rotation_deg.mean = turns / distances;
   }
   stats.subjects = subjects().size();
   stats.skeletons = joints.size();

@@ -65,7 +65,7 @@ TakeBlock unpack_block(std::int64_t id, std::span<const std::uint8_t> bytes);
 /// Of a block's bytes, and of where it stands.
 ShortDigest block_digest(std::int64_t id, std::span<const std::uint8_t> bytes);
 
-/// Errors and limits are stored in whole micrometres.
+/// Errors and limits are stored in whole thousandths: micrometres, and thousandths of a degree.
 std::int64_t micrometres(double millimetres);
 
 /// The number that stands for a part of coded motion ("curves", ...). Parts are a closed list.

@@ -17,6 +17,8 @@ constexpr std::size_t most_texts = std::size_t{1} << 28;
 /// Of an error or a limit: up to this, what was divided to be millimetres is the same number again
 /// when it is packed.
 constexpr std::uint64_t most_micrometres = std::uint64_t{1} << 50;
+/// Of where an error is largest.
+constexpr std::uint64_t most_joint = std::uint64_t{1} << 24;
 
 class Unpacker {
  public:
@@ -69,6 +71,9 @@ class Unpacker {
       t.record.info.fidelity.limit_mm = std::bit_cast<double>(v);
     });
     columns_.column([&](StoredTake& t, std::uint64_t v) {
+      t.record.info.fidelity.limit_deg = std::bit_cast<double>(v);
+    });
+    columns_.column([&](StoredTake& t, std::uint64_t v) {
       t.record.info.text_bytes = checked<std::uint64_t>(v, most_frames) *
                                  static_cast<std::uint64_t>(std::max(1L, t.record.info.frames));
     });
@@ -85,13 +90,35 @@ class Unpacker {
     error(&PositionErrors::rms);
     error(&PositionErrors::p99);
     error(&PositionErrors::max);
-    columns_.counts(TakeBlockLimits::quantiles, [](StoredTake& take, std::size_t count) {
-      take.record.error_quantiles.resize(count);
+    const auto turn = [&](double RotationErrors::*member) {
+      columns_.column([member](StoredTake& t, std::uint64_t v) {
+        t.record.info.rotation_deg.*member = millimetres(v);
+      });
+    };
+    turn(&RotationErrors::mean);
+    turn(&RotationErrors::p99);
+    turn(&RotationErrors::max);
+    for (const auto worst : {&TakeInfo::worst_place, &TakeInfo::worst_turn}) {
+      columns_.column([worst](StoredTake& t, std::uint64_t v) {
+        (t.record.info.*worst).joint = checked<int>(v, most_joint);
+      });
+      columns_.column([worst](StoredTake& t, std::uint64_t v) {
+        (t.record.info.*worst).frame = checked<long>(v, most_frames);
+      });
+    }
+    unpack_sketch(&TakeRecord::error_quantiles);
+    unpack_sketch(&TakeRecord::turn_quantiles);
+  }
+
+  void unpack_sketch(Bytes TakeRecord::*sketch) {
+    columns_.counts(TakeBlockLimits::quantiles, [sketch](StoredTake& take, std::size_t count) {
+      (take.record.*sketch).resize(count);
     });
-    const auto count = [](const StoredTake& t) { return t.record.error_quantiles.size(); };
-    columns_.columns_by_place(count, [](StoredTake& t, std::size_t q, std::uint64_t v) {
-      const int before = q == 0 ? 0 : t.record.error_quantiles[q - 1];
-      t.record.error_quantiles[q] = static_cast<std::uint8_t>(before + static_cast<int>(v & 255));
+    const auto count = [sketch](const StoredTake& t) { return (t.record.*sketch).size(); };
+    columns_.columns_by_place(count, [sketch](StoredTake& t, std::size_t q, std::uint64_t v) {
+      Bytes& quantiles = t.record.*sketch;
+      const int before = q == 0 ? 0 : quantiles[q - 1];
+      quantiles[q] = static_cast<std::uint8_t>(before + static_cast<int>(v & 255));
     });
   }
 
@@ -108,6 +135,9 @@ class Unpacker {
     });
     columns_.columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.record.layers[i].limit_mm = millimetres(v);
+    });
+    columns_.columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
+      t.record.layers[i].limit_deg = millimetres(v);
     });
     columns_.columns_by_place(count, [](StoredTake& t, std::size_t i, std::uint64_t v) {
       t.places[i].size = checked<std::size_t>(v, std::uint64_t{1} << 32);

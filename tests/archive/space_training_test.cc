@@ -22,8 +22,8 @@ TEST(SpaceTraining, TheStartIsWhereMostTakesBegin) {
   LayoutEvidence evidence;
   for (const double angle : {170.0, -170.0, 170.0}) {
     take.channels = ChannelMatrix::Constant(40, take.skeleton->channel_count, -angle);
-    take.channels.row(0).setConstant(angle);
-    evidence.add(layout_evidence(take));
+    take.channels.topRows(6).setConstant(angle);
+    evidence.add(layout_evidence(prepare_take(take)));
   }
   ASSERT_EQ(evidence.first_frames.size(), 3u);
   MarkerLayout layout = make_marker_layout(*take.skeleton, choose_layout(*take.skeleton, evidence));

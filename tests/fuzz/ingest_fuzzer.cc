@@ -26,6 +26,7 @@ void check_stored(const std::filesystem::path& path, const std::filesystem::path
     expect(archive.source_text(takes[0]) == read_scratch(source), "a text comes back");
   } else {
     expect(comparison.errors.max <= fidelity_of(tier).limit_mm + slack, "the bound is kept");
+    expect(comparison.turns.max <= fidelity_of(tier).limit_deg + slack, "no joint turns too far");
   }
   const VerifyReport report = archive.verify(source.parent_path());
   expect(report.ok, report.damaged.empty() ? "" : report.damaged[0].why);

@@ -22,8 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         unpack_space(input.rest(), reference, base == nullptr ? nullptr : &base->space);
     for (const LayerRecord& layer : record.layers) {
       if (layer.kind != LayerKind::coefficients) continue;
-      decode_layer(
-          {record.info, layer.kind, layer.data, archive.proportions(record.proportions), &space});
+      decode_layer({record.info, layer.kind, layer.data, archive.proportions(record.proportions),
+                    &space, &space.space.known});
     }
   } catch (const Error& error) {
     expect(error.code() == ErrorCode::damaged, error.what());

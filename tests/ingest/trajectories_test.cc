@@ -15,7 +15,7 @@ namespace skeletons = testing_skeletons;
 
 /// A space of a take that keeps every axis.
 CoefficientSpace whole_space(const Take& take) {
-  const LayoutEvidence evidence = layout_evidence(take);
+  const LayoutEvidence evidence = layout_evidence(prepare_take(take));
   MarkerLayout layout = make_marker_layout(*take.skeleton, choose_layout(*take.skeleton, evidence));
   MarkerMoments moments;
   moments.add(mark_take(layout, take).markers);

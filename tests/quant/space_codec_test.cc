@@ -72,7 +72,7 @@ TEST_F(SpaceCodec, ExtensionKeepsWhatItExtends) {
 }
 
 TEST_F(SpaceCodec, DamagedSpacesAndTakesAreErrorsOrMotion) {
-  const auto good = pack_space(encode_space(space_, {}), KnotModel().prior(false));
+  const auto good = pack_space({}, encode_space(space_, {}), KnotModel().prior(false));
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
     auto bytes = good;
@@ -128,7 +128,7 @@ TEST_P(TakeCodec, TakesComeBackFromTheirBytes) {
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     try {
       const ChannelMatrix channels =
-          decode_take(coded, *take_.skeleton, shape, std::span(bytes).first(size));
+          decode_take(coded, *take_.skeleton, {}, shape, std::span(bytes).first(size));
       EXPECT_EQ(channels.rows(), take_.frames());
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::damaged);

@@ -22,27 +22,29 @@ Take synthetic_take(MotionFormat format) {
 
 class ChannelQuantisers : public testing::TestWithParam<MotionFormat> {
  protected:
-  static constexpr double step_mm = 8;
+  static constexpr double step_mm = 8, arm_mm = 60;
 
-  Take take = synthetic_take(GetParam());
+  PreparedTake prepared = prepare_take(synthetic_take(GetParam()));
+  Take& take = prepared.take;
   CodedChannels fresh{*take.skeleton,
+                      prepared.header.constants,
                       {take.frames(), take.frame_rate},
                       time_scales({take.frames(), take.frame_rate}, 0.5)};
 };
 
 TEST_P(ChannelQuantisers, ASecondTryGivesWhatAFirstOneWouldGive) {
-  ChannelQuantiser quantiser(take, step_mm);
+  ChannelQuantiser quantiser(prepared, arm_mm);
   CodedChannels coded = fresh;
   quantiser.set_steps(step_mm, coded.steps);
   std::mt19937 random(5);
   for (int i = 0; i < 12; ++i) {
     const ChannelMatrix decoded = quantiser.quantise(coded);
-    ChannelQuantiser other(take, step_mm);
+    ChannelQuantiser other(prepared, arm_mm);
     CodedChannels expected = fresh;
     expected.steps = coded.steps;
     EXPECT_TRUE(decoded == other.quantise(expected)) << "try " << i;
     EXPECT_TRUE(coded.knots == expected.knots);
-    EXPECT_TRUE(quantiser.positions() == other.positions());
+    EXPECT_TRUE(positions_of(quantiser.decoded()) == positions_of(other.decoded()));
     if (i == 6) {
       coded.steps.base[random() % coded.steps.base.size()] = -1;  // stored as it is
     } else {
@@ -52,7 +54,7 @@ TEST_P(ChannelQuantisers, ASecondTryGivesWhatAFirstOneWouldGive) {
 }
 
 TEST_P(ChannelQuantisers, DecodedChannelsAreThoseOfTheKnots) {
-  ChannelQuantiser quantiser(take, step_mm);
+  ChannelQuantiser quantiser(prepared, arm_mm);
   CodedChannels coded = fresh;
   quantiser.set_steps(step_mm, coded.steps);
   const ChannelMatrix decoded = quantiser.quantise(coded);
@@ -60,7 +62,7 @@ TEST_P(ChannelQuantisers, DecodedChannelsAreThoseOfTheKnots) {
 }
 
 TEST_P(ChannelQuantisers, JointsAreNearerThanIfChannelsKnewNothingOfEachOther) {
-  ChannelQuantiser quantiser(take, step_mm);
+  ChannelQuantiser quantiser(prepared, arm_mm);
   CodedChannels coded = fresh;
   quantiser.set_steps(step_mm, coded.steps);
   const auto mean_of = [&](const ChannelMatrix& decoded) {
@@ -68,7 +70,7 @@ TEST_P(ChannelQuantisers, JointsAreNearerThanIfChannelsKnewNothingOfEachOther) {
                            joint_positions(*take.skeleton, decoded))
         .mean;
   };
-  const std::vector<int> order = coding_order(*take.skeleton);
+  const std::vector<int>& order = fresh.order.channels;
   ChannelMatrix apart = take.channels;
   for (std::size_t i = 0; i < order.size(); ++i) {
     Eigen::MatrixXd column = take.channels.col(order[i]);

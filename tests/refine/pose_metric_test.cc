@@ -19,6 +19,8 @@ class PoseMetrics : public testing::TestWithParam<MotionFormat> {
     options.seconds = 2;
     options.format = GetParam();
     take_ = make_synthetic_library(options).takes.at(0);
+    const auto channels = static_cast<std::size_t>(take_.skeleton->channel_count);
+    order_ = CodingOrder(*take_.skeleton, std::vector<bool>(channels, true));
     metrics_.resize(static_cast<std::size_t>(take_.skeleton->channel_count));
   }
 
@@ -27,12 +29,12 @@ class PoseMetrics : public testing::TestWithParam<MotionFormat> {
   }
 
   Take take_;
+  CodingOrder order_{Skeleton{}, {}};
   std::vector<ChannelMetric> metrics_;
 };
 
 TEST_P(PoseMetrics, ChannelsComeAfterWhatTheyHangOn) {
-  const std::vector<int> order = coding_order(*take_.skeleton);
-  const std::vector<int> parents = coding_parents(*take_.skeleton);
+  const std::vector<int>&order = order_.channels, &parents = order_.parents;
   std::vector<int> sorted = order;
   std::sort(sorted.begin(), sorted.end());
   std::vector<int> all(static_cast<std::size_t>(take_.skeleton->channel_count));
@@ -44,10 +46,9 @@ TEST_P(PoseMetrics, ChannelsComeAfterWhatTheyHangOn) {
 
 /// A channel's motion is what forward kinematics does, to first order.
 TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
-  PoseMetric metric(*take_.skeleton, 20);
+  PoseMetric metric(*take_.skeleton, order_, 20);
   const std::vector<double> weights(take_.skeleton->joints.size(), 1.0);
-  const std::vector<int> order = coding_order(*take_.skeleton);
-  const std::vector<int> parents = coding_parents(*take_.skeleton);
+  const std::vector<int>&order = order_.channels, &parents = order_.parents;
   const long f = take_.frames() / 2;
   metric.measure(frame(take_.channels, f), weights, metrics_);
   std::vector<JointFrame> before(take_.skeleton->joints.size()), after = before;
@@ -63,7 +64,7 @@ TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
     twists[i] += metrics_[i].motion * error;
   }
   forward_kinematics(*take_.skeleton, frame(moved, 0), after);
-  const std::vector<int> last = moving_places(*take_.skeleton);
+  const std::vector<int>& last = order_.last_moving;
   for (std::size_t j = 0; j < last.size(); ++j) {
     const Joint& joint = take_.skeleton->joints[j];
     const int moves = last[j];
@@ -76,7 +77,7 @@ TEST_P(PoseMetrics, MotionsAreDerivativesOfPlaces) {
 }
 
 TEST_P(PoseMetrics, WeightsArePositiveAndGrowWithTheJoints) {
-  PoseMetric metric(*take_.skeleton, 20);
+  PoseMetric metric(*take_.skeleton, order_, 20);
   std::vector<double> weights(take_.skeleton->joints.size(), 1.0);
   metric.measure(frame(take_.channels, 0), weights, metrics_);
   const std::vector<ChannelMetric> light = metrics_;

@@ -71,6 +71,10 @@ inline TakeRecord sample_take(const Ground& ground, int number) {
   take.info.frames = 100 + number;
   take.info.text_bytes = 5000;
   take.info.error_mm = {19.5, 22.25, 60.125, 99.5};
+  take.info.rotation_deg = {1.5, 6.25, 9.875};
+  take.info.worst_place = {3, 17};
+  take.info.worst_turn = {5, 40};
+  take.turn_quantiles = {1, 2, 4, 8};
   take.info.source_digest = hexadecimal(digest_of("source " + std::to_string(number)));
   take.proportions = ground.proportions;
   take.space = ground.space;

@@ -95,7 +95,11 @@ TEST(TakeBlock, TakesComeBack) {
       EXPECT_EQ(a.record.info.description, b.record.info.description);
       EXPECT_EQ(a.record.info.text_bytes, b.record.info.text_bytes);
       EXPECT_EQ(a.record.info.error_mm.max, b.record.info.error_mm.max);
-      EXPECT_EQ(a.record.info.fidelity.limit_mm, b.record.info.fidelity.limit_mm);
+      EXPECT_EQ(a.record.info.fidelity, b.record.info.fidelity);
+      EXPECT_EQ(a.record.info.rotation_deg.p99, b.record.info.rotation_deg.p99);
+      EXPECT_EQ(a.record.info.worst_place, b.record.info.worst_place);
+      EXPECT_EQ(a.record.info.worst_turn, b.record.info.worst_turn);
+      EXPECT_EQ(a.record.turn_quantiles, b.record.turn_quantiles);
       EXPECT_EQ(a.record.error_quantiles, b.record.error_quantiles);
       EXPECT_EQ(a.record.spent, b.record.spent);
       EXPECT_EQ(a.clips, b.clips);
