@@ -47,7 +47,8 @@ class LayerMaker {
     const std::string known =
         take_.skeleton->format == MotionFormat::bvh ? take_.skeleton->source_text : std::string();
     add(LayerKind::text, 0, "text", encode_text(text, known));
-    std::ranges::fill(made_.distances, 0.0F);
+    made_.distances.assign(static_cast<std::size_t>(take_.frames()) * take_.skeleton->joints.size(),
+                           0.0F);
     made_.errors = {};
   }
 
@@ -90,7 +91,7 @@ class LayerMaker {
 TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
                        const std::string& text, FittedTake fitted) {
   LayerMaker maker(space, take, options.contacts);
-  maker.add_coarsest(std::move(fitted), coarse_mean_mm(options.fidelity));
+  if (fitted.kept) maker.add_coarsest(std::move(fitted), coarse_mean_mm(options.fidelity));
   if (const auto bound = bound_of(options.fidelity)) maker.add_refinement(*bound);
   if (options.fidelity.tier == FidelityTier::exact) maker.add_text(text);
   return maker.finish();

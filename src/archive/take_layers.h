@@ -19,7 +19,8 @@ struct TakeLayers {
   std::vector<float> distances;  ///< of the finest layer: frames x joints, mm, in no order
 };
 
-/// `fitted` is the take on its space; `text` the source file, which only `exact` stores.
+/// `fitted` is the take on its space; one that is not kept there is `exact` and has its text alone.
+/// `text` the source file, which only `exact` stores.
 TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space, const Take& take,
                        const std::string& text, FittedTake fitted);
 

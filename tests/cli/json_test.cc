@@ -114,11 +114,14 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
   const json shape = {
       {"added", "array"},          {"skipped", "array"},       {"other_fidelity", "array"},
       {"other_metadata", "array"}, {"other_reading", "array"}, {"takes_not_found", "array"},
-      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape}};
+      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape},
+      {"replaced", "array"},       {"same_source", "array"},   {"notes", "array"},
+      {"other_kinds", "object"},   {"estimate", "null"}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);
-  expect_shape(first["rejected"][0], {{"path", "string"}, {"line", "integer"}, {"why", "string"}},
+  expect_shape(first["rejected"][0],
+               {{"path", "string"}, {"line", "integer"}, {"why", "string"}, {"advice", "string"}},
                "rejected");
   EXPECT_EQ(first["rejected"][0]["line"], 4);
   const json second = document({"ingest", "lib.rpz", "takes"}, 3);
