@@ -111,7 +111,9 @@ void ExtractCommand::check() {
   if (!file_.empty() && (request_.all || request_.ids.size() > 1)) {
     refuse("-o is for one ID; -d DIR takes any number");
   }
-  if (!file_.empty() && file_ != "-") check_written_ending(file_);
+  // That a file is the archive itself is told later, in words of its own.
+  const bool archive = file_.lexically_normal() == archive_.lexically_normal();
+  if (!file_.empty() && file_ != "-" && !archive) check_written_ending(file_);
   if (request_.frames && request_.time) refuse("--frames and --time exclude each other");
 }
 
@@ -126,6 +128,7 @@ ExitCode ExtractCommand::run(Console& console) {
   }
   std::vector<fs::path> targets;
   if (folder_.empty()) {
+    refuse_archive(file_, archive_);
     check_written_ending(file_, plan.front().take);
     targets.push_back(file_);
     if (!overwrite_ && fs::exists(fs::symlink_status(file_))) refuse_existing(file_);

@@ -64,11 +64,14 @@ std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) reject(path, "this is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) reject(path, std::string("the file cannot be opened: ") + std::strerror(errno));
+  if (!file) {
+    reject(path, std::string("the file cannot be opened: ") + std::strerror(errno),
+           "make it readable, or leave it out");
+  }
   const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > InputLimits::file_bytes) reject_size(path);
   std::string text = read_stream(file, path.string());
-  if (file.bad()) reject(path, "the file cannot be read");
+  if (file.bad()) reject(path, "the file cannot be read", "copy it again, or leave it out");
   return text;
 }
 
