@@ -1,5 +1,6 @@
 #include "archive/estimate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -21,10 +22,12 @@ constexpr std::uint64_t most_numbers = 2'000'000;
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "reprise-sample-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw Error(code_of_errno(errno), "no folder can be made for a sample of the takes",
-                  {fs::temp_directory_path().string()});
+    std::error_code error;
+    const fs::path place = fs::temp_directory_path(error);
+    std::string pattern = (place / "reprise-sample-XXXXXX").string();
+    if (error || ::mkdtemp(pattern.data()) == nullptr) {
+      throw Error(ErrorCode::failed, "no folder can be made for a sample of the takes",
+                  {place.string()});
     }
     path_ = pattern;
   }
@@ -63,12 +66,9 @@ std::vector<std::size_t> sample_of(const std::vector<FreshTake>& takes) {
   return sample;
 }
 
-}  // namespace
-
-std::optional<IngestEstimate> estimate_ingest(const std::vector<FreshTake>& takes,
-                                              const IngestOptions& options,
-                                              const std::function<void()>& pulse) {
-  if (takes.empty()) return std::nullopt;
+std::optional<IngestEstimate> estimate_from_sample(const std::vector<FreshTake>& takes,
+                                                   const IngestOptions& options,
+                                                   const std::function<void()>& pulse) {
   const TemporaryFolder folder;
   const fs::path archive = folder.path() / "sample.rpz";
   IngestOptions sampling;
@@ -96,6 +96,21 @@ std::optional<IngestEstimate> estimate_ingest(const std::vector<FreshTake>& take
                        std::max(0.0, more - 1) * static_cast<double>(stats.payload_bytes)));
   estimate.seconds = report.seconds * std::max(1.0, more);
   return estimate;
+}
+
+}  // namespace
+
+std::optional<IngestEstimate> estimate_ingest(const std::vector<FreshTake>& takes,
+                                              const IngestOptions& options,
+                                              const std::function<void()>& pulse) {
+  if (takes.empty()) return std::nullopt;
+  try {
+    return estimate_from_sample(takes, options, pulse);
+  } catch (const Error& error) {
+    // A folder for temporary files that is full or closed says nothing of the ingest.
+    if (error.code() != ErrorCode::failed && error.code() != ErrorCode::limit) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace reprise

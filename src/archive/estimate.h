@@ -11,9 +11,8 @@
 namespace reprise {
 
 /// Stores some of the takes, spread over all, in an archive of its own in the system's folder for
-/// temporary files, and takes it away again. Nothing where there is no take, or none can be stored.
-/// `pulse` is called again and again; what it throws ends it. Throws Error (failed, limit) where
-/// that folder takes no file.
+/// temporary files, and takes it away again. Nothing where there is no take, or none can be stored
+/// there. `pulse` is called again and again; what it throws ends it.
 std::optional<IngestEstimate> estimate_ingest(const std::vector<FreshTake>& takes,
                                               const IngestOptions& options,
                                               const std::function<void()>& pulse);

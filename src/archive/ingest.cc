@@ -58,8 +58,8 @@ class Ingest {
     }
     survey();
     if (options_.dry_run) {
-      for (const FreshTake& fresh : fresh_) report_.added.push_back(fresh.file.name);
       report_.estimate = estimate_ingest(fresh_, options_, [&] { tick({}); });
+      for (const FreshTake& fresh : fresh_) report_.added.push_back(fresh.file.name);
     } else {
       store_structures();
       if (options_.repeats) {

@@ -73,14 +73,14 @@ class AmcReader {
     use_skeleton();
   }
 
-  /// Of the last frame, in the last line that is filled, a fault is an end that came too early.
-  /// True where the frame is left out for that.
-  bool cut_or_reject(const std::string& why, const std::string& advice = {}) {
+  /// Of a frame behind the first, in the last line that is filled, such a fault is an end that came
+  /// too early; the frame is left out where that is wished.
+  void cut_or_reject(const std::string& why, const std::string& advice = {}) {
     if (frames_ < 2 || !lines_.nothing_follows()) lines_.reject(why, advice);
     if (!partial_) {
       lines_.reject(why, "if the recording was cut off, --partial takes the frames before");
     }
-    return cut_ = true;
+    cut_ = true;
   }
 
   /// Few files say it; what is asked for comes before it.
@@ -167,7 +167,12 @@ class AmcReader {
       }
       bones.push_back(found->second);
     } else if (next_bone_ >= bones.size() || skeleton_->joints[bones[next_bone_]].name != word) {
-      cut_or_reject("the bones of this frame are not those of the first: " + in_quotes(word));
+      const std::string why =
+          "the bones of this frame are not those of the first: " + in_quotes(word);
+      const bool begins = next_bone_ < bones.size() && trimmed(rest).empty() &&
+                          skeleton_->joints[bones[next_bone_]].name.starts_with(word);
+      if (!begins) lines_.reject(why);
+      cut_or_reject(why);
       return;
     }
     values(skeleton_->joints[bones[next_bone_++]], rest);

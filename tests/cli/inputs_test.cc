@@ -217,6 +217,14 @@ TEST_F(InputsTest, ADryRunNamesAndEstimates) {
   const double bytes = done.at("stats").at("archive_bytes");
   EXPECT_NEAR(dry.at("estimate").at("bytes").get<double>() / bytes, 1, 0.5);
   EXPECT_TRUE(document({"ingest", "lib.rpz", "takes", "--dry-run"}).at("estimate").is_null());
+  // Without a folder for temporary files there is no estimate, and that is all.
+  const Outcome closed =
+      reprise({"ingest", "new.rpz", "takes", "--dry-run"}, {{{"TMPDIR", "nowhere"}}, {}});
+  EXPECT_EQ(closed.exit_code, 0) << closed.err;
+  EXPECT_EQ(closed.out.find("estimate"), std::string::npos) << closed.out;
+  for (const auto& [file, text] : files_below(folder())) {
+    EXPECT_EQ(file.find("reprise-sample"), std::string::npos) << file;
+  }
 }
 
 TEST_F(InputsTest, AQuietVerifySaysNothingWhereAllIsRight) {

@@ -170,7 +170,8 @@ TEST(CutOff, AnAmcWithAFaultBeforeItsEndIsRejected) {
   for (const std::string& fault :
        {"2\nroot 1 2 3 4 5 6\ntibia .5 -1 2\n3" + frame, "2\nroot 1 2 3 4 5\n3" + frame,
         "2\nroot 1 2 3 4 5 6\nfibula 1 2 3\n3" + frame, "3" + frame,
-        std::string("2\nroot 1 2 3 4 5 6 7\n")}) {
+        std::string("2\nroot 1 2 3 4 5 6 7\n"), "2" + frame + "END\n", "2" + frame + "rem",
+        std::string("2\nroot 1 2 3 4 5 6\nfem")}) {
     EXPECT_THROW(read_amc_text("1" + frame + fault, true), Error) << fault;
   }
 }
