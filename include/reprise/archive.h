@@ -191,10 +191,38 @@ struct RejectedInput {
   std::string path;
   std::size_t line = 0;
   std::string why;
+  std::string advice = {};  ///< what to do about it
+};
+
+/// What was read otherwise than a file says, in a file that was taken in.
+struct InputNote {
+  std::string path;
+  std::size_t line = 0;
+  std::string what;
+};
+
+/// A take whose source is, byte for byte, that of another one.
+struct SameSource {
+  std::string name;
+  std::string same_as;
+};
+
+/// What an ingest would do, from a sample of its takes that was coded for it.
+struct IngestEstimate {
+  std::uint64_t bytes = 0;  ///< that the archive would grow by
+  double seconds = 0;
+  std::size_t sampled = 0;  ///< takes
 };
 
 struct IngestReport {
-  std::vector<std::string> added;
+  std::vector<std::string> added;       ///< stored by this ingest
+  std::vector<std::string> replaced;    ///< of `added`: in place of a take of the same name
+  std::vector<SameSource> same_source;  ///< of `added`: what is stored under another name, too
+  std::vector<InputNote> notes;
+  /// Files of folders that are no motion and no skeleton, by the ends of their names (".fbx", "" of
+  /// none; ".bvh" where that is the whole name). Hidden ones are not counted.
+  std::map<std::string, std::size_t> other_kinds;
+  std::optional<IngestEstimate> estimate;  ///< of a dry run that would add something
   std::vector<std::string> skipped;
   std::vector<std::string>
       other_fidelity;  ///< of `skipped`: stored with another than was asked for

@@ -56,6 +56,13 @@ TakeRecord make_record(const FreshTake& fresh, const Take& take, const SpaceAssi
   return record;
 }
 
+/// Whether a take that cannot be coded on its space is stored all the same: its text holds
+/// everything. What markers do not carry is tried channel by channel before.
+bool by_text_alone(const CodedSpace& space, const IngestOptions& options) {
+  return options.fidelity.tier == FidelityTier::exact &&
+         !space.space.layout.choices.through_markers;
+}
+
 }  // namespace
 
 std::size_t CodedTake::bytes() const {
@@ -80,7 +87,7 @@ CodedTake code_take(const FreshTake& fresh, const SpaceAssignment& assignment, c
                             ? *assignment.fitted
                             : fit_take(assignment.space->space, assignment.space->model, prepared,
                                        fit_options(options));
-    coded.kept = fitted.kept;
+    coded.kept = fitted.kept || by_text_alone(*assignment.space, options);
     if (!coded.kept) return coded;
     coded.record = make_record(
         fresh, take, assignment, options,

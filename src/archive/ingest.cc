@@ -9,6 +9,7 @@
 
 #include "archive/clip_links.h"
 #include "archive/coded_take.h"
+#include "archive/estimate.h"
 #include "archive/input_files.h"
 #include "archive/metadata.h"
 #include "archive/parallel.h"
@@ -38,10 +39,11 @@ class Ingest {
         memory_bytes_(options.memory_bytes > 0 ? options.memory_bytes : free_memory()) {}
 
   IngestReport run() {
-    if (options_.read.asf) read_whole_file(*options_.read.asf);
+    for (const std::filesystem::path& asf : options_.read.asf) read_whole_file(asf);
     if (options_.metadata) metadata_ = MetadataTable::read(*options_.metadata);
     InputFiles inputs = find_input_files(options_.paths, options_.prefix, [&] { tick({}); });
     report_.rejected = std::move(inputs.rejected);
+    report_.other_kinds = std::move(inputs.other_kinds);
     files_ = std::move(inputs.files);
     std::vector<std::string> names;
     for (const InputFile& file : files_) names.push_back(file.name);
@@ -55,7 +57,10 @@ class Ingest {
       });
     }
     survey();
-    if (!options_.dry_run) {
+    if (options_.dry_run) {
+      report_.estimate = estimate_ingest(fresh_, options_, [&] { tick({}); });
+      for (const FreshTake& fresh : fresh_) report_.added.push_back(fresh.file.name);
+    } else {
       store_structures();
       if (options_.repeats) {
         plan_ = plan_clips(archive_, fresh_, spaces_, options_,
@@ -64,6 +69,7 @@ class Ingest {
       code_and_store();
       link_clips(*store_, plan_, {report_.added.begin(), report_.added.end()});
     }
+    list_replaced();
     std::sort(report_.rejected.begin(), report_.rejected.end(),
               [](const RejectedInput& a, const RejectedInput& b) { return a.path < b.path; });
     return std::move(report_);
@@ -89,11 +95,21 @@ class Ingest {
     report_.other_fidelity = std::move(survey.other_fidelity);
     report_.other_metadata = std::move(survey.other_metadata);
     report_.other_reading = std::move(survey.other_reading);
-    if (options_.dry_run) {
-      for (const FreshTake& fresh : survey.fresh) report_.added.push_back(fresh.file.name);
-    } else {
-      fresh_ = std::move(survey.fresh);
+    report_.same_source = std::move(survey.same_source);
+    report_.notes = std::move(survey.notes);
+    fresh_ = std::move(survey.fresh);
+  }
+
+  /// Of what was added; what is told of takes that were not is dropped.
+  void list_replaced() {
+    const std::set<std::string> added(report_.added.begin(), report_.added.end());
+    for (const FreshTake& fresh : fresh_) {
+      if (fresh.replaces && added.contains(fresh.file.name)) {
+        report_.replaced.push_back(fresh.file.name);
+      }
     }
+    std::erase_if(report_.same_source,
+                  [&](const SameSource& same) { return !added.contains(same.name); });
   }
 
   /// Skeletons, proportions and spaces come first, so that a stopped ingest goes on with the same
@@ -115,8 +131,9 @@ class Ingest {
     spaces_ = SpaceBuilder(*store_, options_).build_plain(odd, spaces_);
     code_and_store(odd, spaces_);
     for (const FreshTake& fresh : unkept_) {
-      report_.rejected.push_back(
-          {fresh.file.path.string(), 0, "the motion cannot be coded within the promised error"});
+      report_.rejected.push_back({fresh.file.path.string(), 0,
+                                  "the motion cannot be coded within the promised error",
+                                  "--fidelity exact stores any motion"});
     }
   }
 

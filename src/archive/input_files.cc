@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -22,21 +23,44 @@ std::string folder_name(const fs::path& file) {
   return full.filename().generic_string();
 }
 
-/// Why what a folder holds under this name cannot be taken in; empty where it can, or is not meant.
-std::string hindrance(const fs::directory_entry& entry) {
+/// Why what a folder holds under this name cannot be taken in; nothing where it can, or is not
+/// meant.
+std::optional<RejectedInput> hindrance(const fs::directory_entry& entry) {
+  const std::string path = entry.path().string();
   std::error_code error;
   if (entry.is_symlink(error)) {
     const bool lost = is_motion_file(entry.path()) && !entry.exists(error);
-    return lost ? "the link leads to no file" : "";
+    if (!lost) return std::nullopt;
+    return RejectedInput{path, 0, "the link leads to no file", "mend the link, or remove it"};
   }
-  if (!entry.is_directory(error)) return "";
+  if (!entry.is_directory(error)) return std::nullopt;
   const fs::directory_iterator probe(entry.path(), error);
-  return error ? "the folder cannot be read: " + error.message() : "";
+  if (!error) return std::nullopt;
+  return RejectedInput{path, 0, "the folder cannot be read: " + error.message(),
+                       "make it readable, or name what is wanted beside it"};
+}
+
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
+/// Whether a folder's file is meant to be taken in, by its name.
+bool is_wanted(const fs::path& path) {
+  return is_motion_file(path) && path.has_extension() && !is_resource_fork(path);
+}
+
+/// What a file that is passed over counts as; nothing where it does not count.
+std::optional<std::string> other_kind(const fs::path& relative) {
+  if (is_skeleton_file(relative)) return std::nullopt;
+  const fs::path name = relative.filename();
+  const bool only_ending = is_motion_file(name) && !name.has_extension();
+  const bool hidden = std::ranges::any_of(relative, is_hidden);
+  if (hidden && !only_ending) return std::nullopt;
+  std::string kind = (only_ending ? name : name.extension()).string();
+  for (char& c : kind) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return kind;
 }
 
 /// The files of one argument, with their paths under it.
-std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
-                                                       std::vector<RejectedInput>& rejected,
+std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path, InputFiles& inputs,
                                                        const std::function<void()>& pulse) {
   std::vector<std::pair<fs::path, fs::path>> found;
   std::error_code error;
@@ -59,11 +83,14 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path,
   if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     pulse();
-    const std::string why = hindrance(*entry);
-    if (!why.empty()) rejected.push_back({entry->path().string(), 0, why});
+    if (auto rejected = hindrance(*entry)) inputs.rejected.push_back(std::move(*rejected));
     std::error_code ignored;
-    if (entry->is_regular_file(ignored) && is_motion_file(entry->path())) {
-      found.emplace_back(entry->path(), entry->path().lexically_relative(path));
+    if (!entry->is_regular_file(ignored)) continue;
+    const fs::path relative = entry->path().lexically_relative(path);
+    if (is_wanted(relative)) {
+      found.emplace_back(entry->path(), relative);
+    } else if (const auto kind = other_kind(relative)) {
+      ++inputs.other_kinds[*kind];
     }
   }
   // An error ends the loop.
@@ -87,12 +114,11 @@ struct FoundFile {
 
 /// Each file once: by a name of its own rather than a link's, and with the most folders in it. The
 /// order of arguments, and that of a folder's entries, do not matter.
-std::vector<FoundFile> files_of(const std::vector<fs::path>& arguments,
-                                std::vector<RejectedInput>& rejected,
+std::vector<FoundFile> files_of(const std::vector<fs::path>& arguments, InputFiles& inputs,
                                 const std::function<void()>& pulse) {
   std::vector<FoundFile> files;
   for (const fs::path& argument : arguments) {
-    for (auto& [path, relative] : files_under(argument, rejected, pulse)) {
+    for (auto& [path, relative] : files_under(argument, inputs, pulse)) {
       pulse();
       std::error_code ignored;
       const fs::path full = fs::weakly_canonical(path, ignored);
@@ -117,7 +143,7 @@ InputFiles find_input_files(const std::vector<fs::path>& paths, const std::strin
                             const std::function<void()>& pulse) {
   InputFiles result;
   std::map<std::string, std::vector<std::pair<fs::path, fs::path>>> by_name;
-  for (const FoundFile& file : files_of(paths, result.rejected, pulse)) {
+  for (const FoundFile& file : files_of(paths, result, pulse)) {
     by_name[name_without_extension(file.relative)].emplace_back(file.path, file.relative);
   }
   std::set<std::string> used;
@@ -131,8 +157,8 @@ InputFiles find_input_files(const std::vector<fs::path>& paths, const std::strin
       if (!prefix.empty()) own = prefix + "/" + own;
       if (!used.insert(own).second) {
         result.rejected.push_back({path.string(), 0,
-                                   "another file of this ingest has the name '" + own +
-                                       "' too; ingest the folders one by one with --prefix"});
+                                   "another file of this ingest has the name '" + own + "' too",
+                                   "ingest the folders one by one with --prefix"});
         continue;
       }
       result.files.push_back({path, own, folder_name(path)});

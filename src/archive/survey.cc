@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -79,20 +81,17 @@ class Deciding {
       survey_.fresh.push_back(std::move(fresh));
     } else {
       survey_.rejected.push_back({fresh.file.path.string(), 0,
-                                  "a take '" + name +
-                                      "' with other content is stored already; --replace "
-                                      "replaces it, --prefix P gives the new "
-                                      "one another name"});
+                                  "a take '" + name + "' with other content is stored already",
+                                  "--replace replaces it, --prefix P gives the new one another "
+                                  "name"});
     }
   }
 
   /// Whether a stored take has the unit or frame rate that is asked for, where one is.
   bool read_as_asked(const TakeOutline& outline, const TakeRecord& stored) const {
     const ReadOptions& read = options_.read;
-    if (stored.info.format == MotionFormat::asf_amc) {
-      return !read.amc_frame_rate || outline.frame_rate == stored.info.frame_rate;
-    }
-    return !read.bvh_millimetres_per_unit ||
+    if (read.frame_rate && outline.frame_rate != stored.info.frame_rate) return false;
+    return stored.info.format == MotionFormat::asf_amc || !read.bvh_millimetres_per_unit ||
            outline.skeleton->millimetres_per_unit ==
                store_->proportions(stored.proportions).millimetres_per_unit;
   }
@@ -119,6 +118,31 @@ class Deciding {
   std::set<std::string> names_;  ///< of all files, and those that were found under another one
 };
 
+/// Notes of takes that are to be stored, and which of them are stored under another name, or will
+/// be.
+void describe_fresh(const ArchiveStore* store, Survey& survey) {
+  if (survey.fresh.empty()) return;
+  std::set<std::string> replaced;
+  for (const FreshTake& fresh : survey.fresh) {
+    if (fresh.replaces) replaced.insert(fresh.file.name);
+    for (const SourceNote& note : fresh.outline.notes) {
+      survey.notes.push_back({fresh.file.path.string(), note.line, note.what});
+    }
+  }
+  std::map<std::string, std::string> names;  // of source digests: the first in order
+  if (store != nullptr) {
+    store->for_each_take([&](const TakeRecord& record) {
+      if (replaced.contains(record.info.name)) return;
+      const auto [entry, added] = names.emplace(record.info.source_digest, record.info.name);
+      if (!added) entry->second = std::min(entry->second, record.info.name);
+    });
+  }
+  for (const FreshTake& fresh : survey.fresh) {
+    const auto [entry, added] = names.emplace(fresh.outline.source_digest, fresh.file.name);
+    if (!added) survey.same_source.push_back({fresh.file.name, entry->second});
+  }
+}
+
 /// Moves takes that cannot be coded on this machine from `fresh` to `rejected`.
 void reject_too_large(std::size_t memory_bytes, Survey& survey) {
   std::vector<FreshTake> fitting;
@@ -132,11 +156,10 @@ void reject_too_large(std::size_t memory_bytes, Survey& survey) {
     constexpr double megabyte = 1e6;
     survey.rejected.push_back(
         {fresh.file.path.string(), 0,
-         fmt::format(
-             "coding its {} frames takes about {:.0f} MB of memory, and {:.0f} MB are free; "
-             "cut it into shorter takes, or use a machine with more memory",
-             outline.frames, static_cast<double>(needed) / megabyte,
-             static_cast<double>(memory_bytes) / megabyte)});
+         fmt::format("coding its {} frames takes about {:.0f} MB of memory, and {:.0f} MB are free",
+                     outline.frames, static_cast<double>(needed) / megabyte,
+                     static_cast<double>(memory_bytes) / megabyte),
+         "cut it into shorter takes, or use a machine with more memory"});
   }
   survey.fresh = std::move(fitting);
 }
@@ -144,14 +167,13 @@ void reject_too_large(std::size_t memory_bytes, Survey& survey) {
 }  // namespace
 
 RejectedInput rejection(const InputFile& file, const Error& error) {
-  std::string why = error.reason();
-  if (!error.advice().empty()) why += "; " + error.advice();
   const SourcePlace& place = error.place();
   if (place.file.empty() || place.file == file.path.string()) {
-    return {file.path.string(), place.line, why};
+    return {file.path.string(), place.line, error.reason(), error.advice()};
   }
   // An ASF is to blame; what was not taken in is each AMC of it.
-  return {place.file, place.line, fmt::format("{}; {} needs it", why, file.path.string())};
+  return {place.file, place.line,
+          fmt::format("{}; {} needs it", error.reason(), file.path.string()), error.advice()};
 }
 
 Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& options,
@@ -170,6 +192,7 @@ Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& op
         }
       });
   reject_too_large(memory_bytes, survey);
+  describe_fresh(store, survey);
   return survey;
 }
 

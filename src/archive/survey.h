@@ -16,6 +16,8 @@ struct Survey {
   std::vector<std::string> skipped;  ///< stored already
   /// Of `skipped`, as in IngestReport.
   std::vector<std::string> other_fidelity, other_metadata, other_reading;
+  std::vector<SameSource> same_source;  ///< of `fresh`, as in IngestReport
+  std::vector<InputNote> notes;         ///< of `fresh`
   std::vector<RejectedInput> rejected;
 };
 

@@ -28,21 +28,23 @@ SourceTake read_with_digest(const InputFile& file, const ReadOptions& options,
   hasher.add(text);
   Take take;
   if (format == MotionFormat::asf_amc) {
-    const std::filesystem::path asf = options.asf ? *options.asf : find_asf(file.path);
+    const std::filesystem::path asf = asf_of(file.path, options);
     const std::string asf_text = read_whole_file(asf);
     hasher.add(asf_text);
     auto skeleton = std::make_shared<Skeleton>(read_asf(asf_text, asf.string()));
     skeleton->asf_name = asf.stem().string();
-    take = read_amc(text, name, std::move(skeleton), options.amc_frame_rate);
+    take = read_amc(text, name, std::move(skeleton), options.frame_rate, options.partial);
   } else {
     take = read_bvh(text, name,
-                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit));
+                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit),
+                    options.frame_rate, options.partial);
   }
   digest = hexadecimal(hasher.finish());
   take.name = file.name;
   for (Eigen::Index i = 0; i < take.channels.size(); ++i) {
     if (!std::isfinite(take.channels.data()[i])) {
-      throw Error(ErrorCode::rejected_input, "a value is not a finite number", {name});
+      throw Error(ErrorCode::rejected_input, "a value is not a finite number", {name},
+                  "mend it, or leave it out");
     }
   }
   return {std::move(take), std::move(text)};
@@ -56,7 +58,8 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   outline.subject = take.skeleton->asf_name.empty() ? file.folder : take.skeleton->asf_name;
   outline.text_bytes = text.size();
   if (take.frames() == 0) {
-    throw Error(ErrorCode::rejected_input, "the file has no frames", {file.path.string()});
+    throw Error(ErrorCode::rejected_input, "the file has no frames", {file.path.string()},
+                "it is a skeleton alone: export it with its motion");
   }
   outline.content = content_digest(*take.skeleton, take.channels, 0, take.frames());
   outline.skeleton = take.skeleton;
@@ -65,6 +68,7 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   outline.frame_rate = take.frame_rate;
   outline.frame_rate_assumed = take.frame_rate_assumed;
   outline.layout = take.layout;
+  outline.notes = take.notes;
   return outline;
 }
 

@@ -24,6 +24,7 @@ struct TakeOutline {
   double frame_rate = 0;
   bool frame_rate_assumed = false;
   TakeLayout layout;
+  std::vector<SourceNote> notes;
 };
 
 /// A file that is to be stored.

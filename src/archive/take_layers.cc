@@ -110,7 +110,7 @@ class LayerMaker {
 TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space,
                        const CodingSource& source, FittedTake fitted) {
   LayerMaker maker(space, source, options.contacts);
-  maker.add_coarsest(std::move(fitted), coarse_mean_mm(options.fidelity));
+  if (fitted.kept) maker.add_coarsest(std::move(fitted), coarse_mean_mm(options.fidelity));
   if (is_bounded(options.fidelity)) maker.add_refinement(options.fidelity);
   if (options.fidelity.tier == FidelityTier::exact) maker.add_text();
   return maker.finish();

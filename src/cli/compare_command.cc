@@ -18,7 +18,7 @@ namespace {
 Take read_motion_beside(const fs::path& other, const ReadOptions& options) {
   if (motion_format_of(other) != MotionFormat::asf_amc)
     return read_motion_from_stdin(std::nullopt, options);
-  return read_motion_from_stdin(options.asf ? *options.asf : find_asf(other), options);
+  return read_motion_from_stdin(asf_of(other, options), options);
 }
 
 Take read_side(const fs::path& path, const fs::path& other, const ReadOptions& options) {

@@ -10,6 +10,7 @@
 #include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/text.h"
+#include "cli/written_formats.h"
 #include "reprise/error.h"
 
 namespace fs = std::filesystem;
@@ -48,18 +49,6 @@ MotionText motion_text(const Archive& archive, const PlannedExtract& entry,
   const Take take = is_whole(entry) ? archive.extract(entry.take, fidelity)
                                     : archive.extract(entry.take, entry.frames, fidelity);
   return {write_motion(take), take.skeleton};
-}
-
-/// A name that says another format than what would be in the file misleads what reads it.
-void refuse_other_format(const fs::path& file, const TakeInfo& take) {
-  if (!is_motion_file(file)) return;
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(c | 0x20);
-  if (extension == "." + format_name(take.format)) return;
-  throw Error(ErrorCode::usage,
-              fmt::format("{} comes from {}; it cannot be written as {} yet", take.name,
-                          format_name(take.format), extension.substr(1)),
-              {file.string(), 0});
 }
 
 /// The paths of all motion files, each checked to be inside `folder` and, unless `overwrite`, not
@@ -122,6 +111,9 @@ void ExtractCommand::check() {
   if (!file_.empty() && (request_.all || request_.ids.size() > 1)) {
     refuse("-o is for one ID; -d DIR takes any number");
   }
+  // That a file is the archive itself is told later, in words of its own.
+  const bool archive = file_.lexically_normal() == archive_.lexically_normal();
+  if (!file_.empty() && file_ != "-" && !archive) check_written_ending(file_);
   if (request_.frames && request_.time) refuse("--frames and --time exclude each other");
 }
 
@@ -136,7 +128,8 @@ ExitCode ExtractCommand::run(Console& console) {
   }
   std::vector<fs::path> targets;
   if (folder_.empty()) {
-    refuse_other_format(file_, plan.front().take);
+    refuse_archive(file_, archive_);
+    check_written_ending(file_, plan.front().take);
     targets.push_back(file_);
     if (!overwrite_ && fs::exists(fs::symlink_status(file_))) refuse_existing(file_);
   } else {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <thread>
+#include <utility>
 
 #include "cli/interruption.h"
 #include "cli/json_output.h"
@@ -38,15 +41,35 @@ ArchiveStats stats_of(const fs::path& archive) {
   return fs::exists(archive) ? Archive(archive).stats() : ArchiveStats{};
 }
 
+/// Names below the first line of a dry run's summary, which counts them.
+std::string with_names(const std::string& text, const std::vector<std::string>& names) {
+  std::string lines;
+  for (const std::string& name : names) lines += "  " + printable(name) + "\n";
+  const std::size_t end = text.find('\n') + 1;
+  return text.substr(0, end) + lines + text.substr(end);
+}
+
 std::string summary(const IngestReport& report, const ArchiveStats& stats, bool dry_run) {
   Table table({{"", Table::Align::left}, {"", Table::Align::left}});
-  table.add(
-      {dry_run ? "would add" : "added",
-       fmt::format("{} in {:.1f} s", format_count(report.added.size(), "take"), report.seconds)});
+  const std::size_t replaced = report.replaced.size();
+  const std::string added = format_count(report.added.size() - (dry_run ? 0 : replaced), "take");
+  table.add({dry_run ? "would add" : "added",
+             dry_run ? added : fmt::format("{} in {:.1f} s", added, report.seconds)});
+  if (replaced > 0) {
+    table.add({dry_run ? "of them" : "replaced",
+               format_count(replaced, "take") +
+                   (dry_run ? " in place of what is there under the name" : "")});
+  }
   table.add({"skipped", format_count(report.skipped.size(), "take") +
                             (report.skipped.size() == 1 ? " that was there already"
                                                         : " that were there already")});
   table.add({"rejected", format_count(report.rejected.size(), "input")});
+  if (report.estimate) {
+    table.add({"estimate", fmt::format("{} more in about {:.0f} s, from {}",
+                                       format_size(report.estimate->bytes),
+                                       std::max(1.0, report.estimate->seconds),
+                                       format_count(report.estimate->sampled, "take"))});
+  }
   if (stats.takes > 0) {
     table.add(
         {"archive", fmt::format("{}, {} of motion in {}", format_count(stats.takes, "take"),
@@ -57,29 +80,90 @@ std::string summary(const IngestReport& report, const ArchiveStats& stats, bool 
                                    format_ratio(stats.text_bytes, stats.archive_bytes))});
     table.add({"error", format_errors(stats.error_mm)});
   }
-  return table.text();
+  return dry_run ? with_names(table.text(), report.added) : table.text();
 }
 
 Json document_of(const IngestReport& report, const ArchiveStats& stats) {
-  Json rejected = Json::array();
+  Json rejected = Json::array(), same = Json::array(), notes = Json::array(), estimate;
   for (const RejectedInput& input : report.rejected) {
-    rejected.push_back({{"path", input.path}, {"line", input.line}, {"why", input.why}});
+    rejected.push_back(
+        {{"path", input.path}, {"line", input.line}, {"why", input.why}, {"advice", input.advice}});
+  }
+  for (const SameSource& take : report.same_source) {
+    same.push_back({{"name", take.name}, {"same_as", take.same_as}});
+  }
+  for (const InputNote& note : report.notes) {
+    notes.push_back({{"path", note.path}, {"line", note.line}, {"what", note.what}});
+  }
+  if (report.estimate) {
+    estimate = {{"bytes", report.estimate->bytes},
+                {"seconds", report.estimate->seconds},
+                {"sampled", report.estimate->sampled}};
   }
   return {{"added", report.added},
+          {"replaced", report.replaced},
+          {"same_source", same},
           {"skipped", report.skipped},
           {"other_fidelity", report.other_fidelity},
           {"other_metadata", report.other_metadata},
           {"other_reading", report.other_reading},
           {"takes_not_found", report.takes_not_found},
           {"rejected", rejected},
+          {"notes", notes},
+          {"other_kinds", Json(report.other_kinds)},
+          {"estimate", estimate},
           {"seconds", report.seconds},
           {"stats", to_json(stats)}};
 }
 
+std::string place_line(const std::string& path, std::size_t line, const std::string& said) {
+  const std::string place = line > 0 ? fmt::format("{}:{}", path, line) : path;
+  return printable(fmt::format("{}: {}", place, said));
+}
+
 std::string rejection_line(const RejectedInput& input) {
-  const std::string place =
-      input.line > 0 ? fmt::format("{}:{}", input.path, input.line) : input.path;
-  return printable(fmt::format("{}: {}", place, input.why));
+  return place_line(input.path, input.line,
+                    input.advice.empty() ? input.why : input.why + "; " + input.advice);
+}
+
+/// "7 files of other kinds: 4 .fbx, 3 .c3d", those with most files first.
+std::string other_kinds_line(const std::map<std::string, std::size_t>& kinds) {
+  constexpr std::size_t most_named = 8;
+  std::vector<std::pair<std::string, std::size_t>> sorted(kinds.begin(), kinds.end());
+  std::ranges::stable_sort(sorted, std::greater(), &std::pair<std::string, std::size_t>::second);
+  std::size_t all = 0;
+  std::string named;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const auto& [kind, files] = sorted[i];
+    all += files;
+    if (i >= most_named) continue;
+    if (i > 0) named += ", ";
+    named += std::to_string(files) + " ";
+    // A name that is an ending and nothing else may be meant, where it is that of a format.
+    const bool whole_name = is_motion_file(kind);
+    named += kind.empty() ? "without an ending" : (whole_name ? "named just " : "") + kind;
+  }
+  return fmt::format("{} of other kinds: {}{}", format_count(all, "file"), named,
+                     sorted.size() > most_named ? ", ..." : "");
+}
+
+/// What a user should know of the inputs that were taken in, or passed over.
+void tell_of_inputs(const IngestReport& report, const Console& console) {
+  constexpr std::size_t most_told = 10;
+  for (const InputNote& note : report.notes) {
+    console.message(place_line(note.path, note.line, note.what));
+  }
+  const std::size_t same = report.same_source.size();
+  const std::size_t told = console.verbose() || same <= most_told ? same : most_told;
+  for (std::size_t i = 0; i < told; ++i) {
+    const SameSource& take = report.same_source[i];
+    console.message(printable(take.name + ": the same as " + take.same_as));
+  }
+  if (told < same) {
+    console.message(fmt::format("{} more that are the same as another one; -v or --json names them",
+                                format_count(same - told, "take")));
+  }
+  if (!report.other_kinds.empty()) console.message(printable(other_kinds_line(report.other_kinds)));
 }
 
 }  // namespace
@@ -165,6 +249,12 @@ ExitCode IngestCommand::run(Console& console) {
   for (const std::string& name : report.added) console.detail("added " + printable(name));
   for (const std::string& name : report.skipped) console.detail("skipped " + printable(name));
   for (const RejectedInput& input : report.rejected) console.complaint(rejection_line(input));
+  tell_of_inputs(report, console);
+  if (options_.replace && report.replaced.empty()) {
+    console.message(
+        "--replace replaced nothing: no take of these names is there with other content, metadata "
+        "or fidelity");
+  }
   if (!report.other_fidelity.empty()) {
     console.message(
         fmt::format("{} stored with another fidelity than asked for, and kept so; "

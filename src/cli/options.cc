@@ -98,19 +98,24 @@ void add_console_options(CLI::App& app, ConsoleOptions& options) {
 }
 
 void add_read_options(CLI::App& app, ReadOptions& options) {
-  app.add_option_function<std::string>(
+  app.add_option_function<std::vector<std::string>>(
          "--asf",
-         [&options](const std::string& text) {
-           if (text.empty() || text == "-") refuse_value("--asf", text, "a path");
-           options.asf = text;
+         [&options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             if (text.empty() || text == "-") refuse_value("--asf", text, "a path");
+             options.asf.emplace_back(text);
+           }
          },
-         "The skeleton of AMC files; else the one beside each")
-      ->type_name("FILE");
+         "A skeleton of AMC files, else the one beside each; of several, each AMC has that of its "
+         "name")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   add_number(app, "--unit-mm", options.bvh_millimetres_per_unit, 1 / greatest_millimetres_per_unit,
              greatest_millimetres_per_unit,
              "Millimetres in a length unit of BVH files (default 10)");
-  add_number(app, "--fps", options.amc_frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
-             "Frames a second of AMC files, which do not say (default 120)");
+  add_number(app, "--fps", options.frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
+             "Frames a second, whatever the files say (else an AMC that says nothing has 120)");
+  app.add_flag("--partial", options.partial, "Take a recording that was cut off as far as it goes");
 }
 
 void add_examples(CLI::App& app, const std::vector<std::string>& lines) {

@@ -18,8 +18,10 @@ constexpr std::uint64_t most_results = 1'000'000'000;
 
 /// A file, or stdin: a BVH, or an AMC where its ASF is given.
 Take read_example(const std::filesystem::path& path, const ReadOptions& options) {
-  return path == "-" ? read_motion_from_stdin(options.asf, options)
-                     : read_motion_file(path, options);
+  if (path != "-") return read_motion_file(path, options);
+  std::optional<std::filesystem::path> asf;
+  if (!options.asf.empty()) asf = options.asf.front();
+  return read_motion_from_stdin(asf, options);
 }
 
 std::string results_table(const std::vector<SearchResult>& results, bool bold) {
@@ -99,8 +101,14 @@ void SearchCommand::check() {
   if (options_.from && options_.to && *options_.from >= *options_.to) {
     throw Error(ErrorCode::usage, "--from must be before --to");
   }
-  if (!id_.empty() && (read_.asf || read_.bvh_millimetres_per_unit || read_.amc_frame_rate)) {
-    throw Error(ErrorCode::usage, "--asf, --unit-mm and --fps are for an example from a FILE");
+  const bool reads =
+      !read_.asf.empty() || read_.bvh_millimetres_per_unit || read_.frame_rate || read_.partial;
+  if (!id_.empty() && reads) {
+    throw Error(ErrorCode::usage,
+                "--asf, --unit-mm, --fps and --partial are for an example from a FILE");
+  }
+  if (like_ == "-" && read_.asf.size() > 1) {
+    throw Error(ErrorCode::usage, "stdin has no name to choose a skeleton by: give one --asf");
   }
   if (options_.across_subjects && id_.empty()) {
     throw Error(ErrorCode::usage, "--across-subjects needs --id: a file has no subject");

@@ -79,7 +79,7 @@ ExitCode VerifyCommand::run(Console& console) {
     ProgressBar bar("verify", console.progress_terminal());
     report = report_of(archive_, against, read_, progress_sink(bar, console));
   }
-  console.result(report_text(report, against.has_value()));
+  if (!report.ok || !console.quiet()) console.result(report_text(report, against.has_value()));
   console.document(document_of(report));
   if (report.ok) return exit_done;
   const ErrorCode code = verdict(report);

@@ -35,7 +35,8 @@ std::optional<std::vector<int>> axis_order(std::string_view word) {
 
 class AsfReader {
  public:
-  AsfReader(std::string_view text, const std::string& file) : lines_(text, file) {
+  AsfReader(std::string_view text, const std::string& file, bool all_turns)
+      : lines_(text, file), all_turns_(all_turns) {
     skeleton_.format = MotionFormat::asf_amc;
     skeleton_.millimetres_per_unit = millimetres_per_inch;
     skeleton_.source_text = std::string(text);
@@ -73,7 +74,7 @@ class AsfReader {
   double number(std::string_view& rest, const char* what) {
     const std::string_view word = next_word(rest);
     const std::optional<double> value = to_number(word);
-    if (!value) lines_.reject(std::string(what) + " needs a number; " + why_no_number(word));
+    if (!value) lines_.reject_number(word, std::string(what) + " needs a number; ");
     return *value;
   }
 
@@ -206,7 +207,18 @@ class AsfReader {
     return found->second;
   }
 
+  /// A bone without degrees of freedom does not move even then.
+  static void add_missing_turns(AsfBone& bone) {
+    std::vector<Channel>& own = bone.degrees_of_freedom;
+    if (own.empty()) return;
+    for (const Channel turn : {Channel::x_rotation, Channel::y_rotation, Channel::z_rotation}) {
+      if (std::ranges::count(own, turn) == 0) own.push_back(turn);
+    }
+  }
+
   Skeleton finish() {
+    if (all_turns_) std::ranges::for_each(bones_, add_missing_turns);
+    skeleton_.radians = radians_;
     if (in_bone_) lines_.reject("the file ends inside of a bone");
     if (bones_.front().degrees_of_freedom.empty())
       lines_.reject("the skeleton's root has no 'order'");
@@ -239,6 +251,7 @@ class AsfReader {
   TextLines lines_;
   Skeleton skeleton_;
   std::string section_;
+  bool all_turns_;
   bool radians_ = false;
   bool in_bone_ = false;
   std::vector<AsfBone> bones_;  // the root, then bones as they come
@@ -249,8 +262,8 @@ class AsfReader {
 
 }  // namespace
 
-Skeleton read_asf(std::string_view text, const std::string& file) {
-  return AsfReader(text, file).read();
+Skeleton read_asf(std::string_view text, const std::string& file, bool all_turns) {
+  return AsfReader(text, file, all_turns).read();
 }
 
 }  // namespace reprise

@@ -1,9 +1,12 @@
 #include "reprise/formats/motion_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <istream>
+#include <utility>
 #include <vector>
 
 #include "formats/text_lines.h"
@@ -14,8 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_extension(const fs::path& path, std::string_view extension) {
-  return equal_ignoring_case(path.extension().string(), extension);
+constexpr std::array<std::pair<MotionFormat, std::string_view>, 2> motion_endings = {
+    {{MotionFormat::bvh, ".bvh"}, {MotionFormat::asf_amc, ".amc"}}};
+constexpr std::string_view skeleton_ending = ".asf";
+
+/// With the point; also of a name that is nothing else.
+std::string ending_of(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.has_extension() ? path.extension().string() : name;
 }
 
 [[noreturn]] void reject(const fs::path& path, const std::string& why,
@@ -23,55 +32,58 @@ bool has_extension(const fs::path& path, std::string_view extension) {
   throw Error(ErrorCode::rejected_input, why, {path.string()}, advice);
 }
 
+[[noreturn]] void reject_size(const fs::path& path) {
+  reject(path, "the file is larger than " + std::to_string(InputLimits::file_bytes) + " bytes",
+         "cut it into shorter takes");
+}
+
 }  // namespace
 
+std::string_view file_ending(MotionFormat format) {
+  return std::ranges::find(motion_endings, format, [](const auto& row) { return row.first; })
+      ->second;
+}
+
 std::optional<MotionFormat> motion_format_of(const fs::path& path) {
-  if (has_extension(path, ".bvh")) return MotionFormat::bvh;
-  if (has_extension(path, ".amc")) return MotionFormat::asf_amc;
+  const std::string own = ending_of(path);
+  for (const auto& [format, ending] : motion_endings) {
+    if (equal_ignoring_case(own, ending)) return format;
+  }
   return std::nullopt;
 }
 
 bool is_motion_file(const fs::path& path) { return motion_format_of(path).has_value(); }
 
-bool is_skeleton_file(const fs::path& path) { return has_extension(path, ".asf"); }
+bool is_resource_fork(const fs::path& path) { return path.filename().string().starts_with("._"); }
 
-fs::path find_asf(const fs::path& amc) {
-  const fs::path folder = amc.parent_path().empty() ? fs::path(".") : amc.parent_path();
-  const std::string stem = amc.stem().string();
-  std::vector<fs::path> skeletons;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (is_skeleton_file(entry.path())) skeletons.push_back(entry.path());
-  }
-  for (const std::string& name : {stem, stem.substr(0, stem.find('_'))}) {
-    for (const fs::path& path : skeletons) {
-      if (path.stem().string() == name) return path;
-    }
-  }
-  if (skeletons.size() == 1) return skeletons[0];
-  reject(amc,
-         skeletons.empty() ? "there is no ASF skeleton beside it"
-                           : "there are several ASF skeletons beside it and none has its name",
-         "name one with --asf");
+bool is_skeleton_file(const fs::path& path) {
+  return equal_ignoring_case(path.extension().string(), skeleton_ending);
 }
 
 std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) reject(path, "this is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) reject(path, std::string("the file cannot be opened: ") + std::strerror(errno));
+  if (!file) {
+    reject(path, std::string("the file cannot be opened: ") + std::strerror(errno),
+           "make it readable, or leave it out");
+  }
   const std::uintmax_t size = fs::file_size(path, error);
-  if (!error && size > InputLimits::file_bytes) {
-    reject(path, "the file is larger than " + std::to_string(InputLimits::file_bytes) + " bytes");
-  }
+  if (!error && size > InputLimits::file_bytes) reject_size(path);
+  std::string text = read_stream(file, path.string());
+  if (file.bad()) reject(path, "the file cannot be read", "copy it again, or leave it out");
+  return text;
+}
+
+std::string read_stream(std::istream& stream, const std::string& name) {
   std::string text;
-  if (!error) text.reserve(size);
   std::vector<char> block(1 << 16);
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-    if (text.size() > InputLimits::file_bytes) reject(path, "the file is too large");
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
+         stream.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(stream.gcount());
+    if (count > InputLimits::file_bytes - text.size()) reject_size(name);
+    text.append(block.data(), count);
   }
-  if (file.bad()) reject(path, "the file cannot be read");
   return text;
 }
 
@@ -86,12 +98,11 @@ Take read_motion_file(const fs::path& path, const ReadOptions& options) {
   const std::string text = read_whole_file(path);
   if (format == MotionFormat::bvh) {
     return read_bvh(text, path.string(),
-                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit));
+                    options.bvh_millimetres_per_unit.value_or(default_millimetres_per_unit),
+                    options.frame_rate, options.partial);
   }
-  const fs::path asf = options.asf ? *options.asf : find_asf(path);
-  auto skeleton = std::make_shared<Skeleton>(read_asf(read_whole_file(asf), asf.string()));
-  skeleton->asf_name = asf.stem().string();
-  return read_amc(text, path.string(), std::move(skeleton), options.amc_frame_rate);
+  auto skeleton = std::make_shared<const Skeleton>(read_asf_file(asf_of(path, options)));
+  return read_amc(text, path.string(), std::move(skeleton), options.frame_rate, options.partial);
 }
 
 }  // namespace reprise

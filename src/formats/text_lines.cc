@@ -26,6 +26,34 @@ std::optional<double> finite_number(std::string_view word) {
   return value;
 }
 
+bool has_decimal_comma(std::string_view word) {
+  std::string pointed(word);
+  std::ranges::replace(pointed, ',', '.');
+  return std::ranges::count(word, ',') == 1 && !word.ends_with(',') && finite_number(pointed);
+}
+
+/// Whether a word is numbers with commas after or between them.
+bool is_parted_by_commas(std::string_view word) {
+  if (word.find(',') == std::string_view::npos) return false;
+  while (!word.empty()) {
+    const std::size_t end = std::min(word.find(','), word.size());
+    if (!finite_number(word.substr(0, end))) return false;
+    word.remove_prefix(std::min(end + 1, word.size()));
+  }
+  return true;
+}
+
+/// Whether a word is one number right behind another: 1.5-2.3, 12.345.678 or 0.5+1.
+bool is_glued(std::string_view word) {
+  for (std::size_t at = 1; at < word.size(); ++at) {
+    const bool starts = word[at] == '-' || word[at] == '+' || word[at] == '.';
+    if (!starts || !finite_number(word.substr(0, at))) continue;
+    const std::string_view rest = word.substr(at);
+    if (finite_number(rest) || is_glued(rest)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool TextLines::next(std::string_view& line) {
@@ -34,9 +62,9 @@ bool TextLines::next(std::string_view& line) {
   const std::size_t end = text_.find_first_of("\r\n", position_);
   line = text_.substr(position_, end == std::string_view::npos ? end : end - position_);
   ++number_;
-  position_ = end == std::string_view::npos ? text_.size() : end + 1;
-  if (end != std::string_view::npos && text_[end] == '\r' && position_ < text_.size() &&
-      text_[position_] == '\n') {
+  ended_ = end != std::string_view::npos;
+  position_ = ended_ ? end + 1 : text_.size();
+  if (ended_ && text_[end] == '\r' && position_ < text_.size() && text_[position_] == '\n') {
     ++position_;
   }
   if (line.size() > InputLimits::line_bytes) {
@@ -47,8 +75,19 @@ bool TextLines::next(std::string_view& line) {
   return true;
 }
 
+bool TextLines::nothing_follows() const {
+  return std::ranges::all_of(text_.substr(position_),
+                             [](char c) { return is_blank(c) || c == '\r' || c == '\n'; });
+}
+
 void TextLines::reject(const std::string& why, const std::string& advice) const {
-  throw Error(ErrorCode::rejected_input, why, {file_, std::max<std::size_t>(number_, 1)}, advice);
+  throw Error(ErrorCode::rejected_input, why, {file_, std::max<std::size_t>(number_, 1)},
+              advice.empty() ? "mend the file there, or export it again" : advice);
+}
+
+void TextLines::reject_number(std::string_view word, const std::string& where) const {
+  const NumberFault fault = number_fault(word);
+  reject(where + fault.why, fault.advice);
 }
 
 std::string_view next_word(std::string_view& line) {
@@ -77,16 +116,29 @@ std::optional<double> to_number(std::string_view word) {
   return value && std::abs(*value) <= InputLimits::magnitude ? value : std::nullopt;
 }
 
-std::string why_no_number(std::string_view word) {
-  if (word.empty()) return "a number is missing";
+NumberFault number_fault(std::string_view word) {
+  if (word.empty()) return {"a number is missing", {}};
   if (word.size() > InputLimits::number_bytes) {
-    return "a number is longer than " + std::to_string(InputLimits::number_bytes) +
-           " bytes: " + in_quotes(word);
+    return {"a number is longer than " + std::to_string(InputLimits::number_bytes) +
+                " bytes: " + in_quotes(word),
+            {}};
   }
   if (finite_number(word)) {
-    return "a number is beyond " + std::to_string(InputLimits::magnitude) + ": " + in_quotes(word);
+    return {"a number is beyond " + std::to_string(InputLimits::magnitude) + ": " + in_quotes(word),
+            "nobody is so far away: look for a fault of the recording there"};
   }
-  return "this is not a number: " + in_quotes(word);
+  if (has_decimal_comma(word)) {
+    return {"a decimal comma stands where a point should: " + in_quotes(word),
+            "export it with decimal points, as an English system does"};
+  }
+  if (is_parted_by_commas(word)) {
+    return {"numbers are parted by commas: " + in_quotes(word), "part them by spaces"};
+  }
+  if (is_glued(word)) {
+    return {"two numbers stand together without a space: " + in_quotes(word),
+            "put a space between them, or export it with wider columns"};
+  }
+  return {"this is not a number: " + in_quotes(word), {}};
 }
 
 std::optional<long> to_count(std::string_view word) {

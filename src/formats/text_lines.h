@@ -28,13 +28,22 @@ class TextLines {
   std::size_t line_start() const { return line_start_; }
   const std::string& file() const { return file_; }
 
+  /// Whether nothing but blanks comes after that line.
+  bool nothing_follows() const;
+  /// Whether the text ends within that line.
+  bool unfinished() const { return position_ == text_.size() && !ended_; }
+
+  /// Throws Error (rejected_input) with the file and line. Without advice there is a general one.
   [[noreturn]] void reject(const std::string& why, const std::string& advice = {}) const;
+  /// The same for a word that is no number (to_number); `where` stands before the sentence.
+  [[noreturn]] void reject_number(std::string_view word, const std::string& where = {}) const;
 
  private:
   std::string_view text_;
   std::string file_;
   std::size_t position_, line_start_ = 0;
   std::size_t number_ = 0;
+  bool ended_ = true;
 };
 
 /// Takes the next word off the front of `line`; empty at its end. Words are parted by spaces and
@@ -49,8 +58,12 @@ std::optional<double> to_number(std::string_view word);
 /// A whole word as a count.
 std::optional<long> to_count(std::string_view word);
 
-/// Why `to_number` did not take a word, as a sentence that quotes it.
-std::string why_no_number(std::string_view word);
+/// Why `to_number` did not take a word, as a sentence that quotes it, and what to do.
+struct NumberFault {
+  std::string why;
+  std::string advice;
+};
+NumberFault number_fault(std::string_view word);
 
 /// A word for an error message: in quotes, cut where it is long, without control characters.
 std::string in_quotes(std::string_view word);

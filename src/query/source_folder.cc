@@ -1,5 +1,7 @@
 #include "query/source_folder.h"
 
+#include <set>
+
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 
@@ -46,10 +48,11 @@ SourceFolder::SourceFolder(const fs::path& folder, const std::function<void()>& 
     if (!why.empty()) unread_.push_back({entry->path().string(), why, true});
     std::error_code ignored;
     const std::optional<MotionFormat> format = motion_format_of(entry->path());
-    if (!entry->is_regular_file(ignored) || !format) continue;
+    if (!entry->is_regular_file(ignored) || !format || is_resource_fork(entry->path())) continue;
     fs::path relative = entry->path().lexically_relative(folder);
-    for (const std::string& name :
-         {relative.generic_string(), relative.replace_extension().generic_string()}) {
+    // A name that is an ending and nothing else has no other.
+    for (const std::string& name : std::set<std::string>{
+             relative.generic_string(), relative.replace_extension().generic_string()}) {
       sources_.emplace(Key(*format, name), entry->path());
       for_each_end(name, [&](const std::string& end) {
         by_end[{*format, end}].push_back(entry->path());

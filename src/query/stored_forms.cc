@@ -89,13 +89,19 @@ TakeLayout unpack_layout(const Bytes& bytes, std::size_t joints) {
   return layout;
 }
 
+std::string amc_header(const Bytes& layout) {
+  LayoutReader reader(layout);
+  reader.text();  // the frame time
+  return reader.text();
+}
+
 std::shared_ptr<const Skeleton> skeleton_of(const ProportionsRecord& record, MotionFormat format) {
   const std::string where = "the stored skeleton";
   try {
     auto skeleton = std::make_shared<Skeleton>(
         format == MotionFormat::bvh
             ? read_bvh_skeleton(record.source_text, where, record.millimetres_per_unit)
-            : read_asf(record.source_text, where));
+            : read_asf(record.source_text, where, amc_has_all_turns(amc_header(record.layout))));
     skeleton->asf_name = record.asf_name;
     return skeleton;
   } catch (const Error& error) {

@@ -91,9 +91,10 @@ std::string decode_whole_text(std::span<const std::uint8_t> coded, const TakeInf
 
 ChannelMatrix parsed_channels(const Take& empty, const std::string& text, const std::string& name) {
   try {
-    Take parsed = empty.skeleton->format == MotionFormat::bvh
-                      ? read_bvh(text, name, empty.skeleton->millimetres_per_unit)
-                      : read_amc(text, name, empty.skeleton, empty.frame_rate);
+    Take parsed =
+        empty.skeleton->format == MotionFormat::bvh
+            ? read_bvh(text, name, empty.skeleton->millimetres_per_unit, empty.frame_rate, true)
+            : read_amc(text, name, empty.skeleton, empty.frame_rate, true);
     if (parsed.channels.cols() == empty.skeleton->channel_count) return std::move(parsed.channels);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;

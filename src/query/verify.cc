@@ -31,6 +31,9 @@ class TakeCheck {
     if (!read.bvh_millimetres_per_unit) {
       read.bvh_millimetres_per_unit = proportions.millimetres_per_unit;
     }
+    // As it was taken in: what is missing now shows in the number of frames.
+    if (!read.frame_rate) read.frame_rate = proportions.frame_rate;
+    read.partial = true;
     try {
       if (source != nullptr) original = read_motion_file(*source, read);
     } catch (const Error& error) {

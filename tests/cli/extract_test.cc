@@ -98,7 +98,27 @@ TEST_F(ExtractTest, AFileIsNotNamedForAnotherFormat) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("cannot be written as bvh"), std::string::npos) << outcome.err;
   output({"extract", "lib.rpz", name, "-o", "take.AMC"});
-  output({"extract", "lib.rpz", name, "-o", "take.txt", "--overwrite"});
+}
+
+TEST_F(ExtractTest, EndingsThatAreNotWrittenAreWrongUsage) {
+  make_library();
+  const std::string name = take_names().front();
+  for (const char* file : {"x.fbx", "x.npz", "x.csv", "x.GLB", "x.asf", "x.txt", "out/x.c3d"}) {
+    // Before the archive is looked at.
+    for (const char* archive : {"lib.rpz", "nowhere.rpz"}) {
+      const auto error = document({"extract", archive, name, "-o", file}, 2).at("error");
+      EXPECT_EQ(error.at("file"), file);
+      EXPECT_NE(error.at("advice").get<std::string>().find(".bvh or .amc"), std::string::npos);
+    }
+    EXPECT_FALSE(fs::exists(folder() / file)) << file;
+  }
+  const auto other = document({"extract", "lib.rpz", name, "-o", "x.amc"}, 2).at("error");
+  EXPECT_EQ(other.at("advice"), "give a name that ends in .bvh");
+  // A number behind a point is no format.
+  for (const char* file : {"x", "x.BVH", "x_1.5", ".x"}) {
+    output({"extract", "lib.rpz", name, "-o", file});
+    EXPECT_EQ(read_file(folder() / file), output({"extract", "lib.rpz", name, "-o", "-"})) << file;
+  }
 }
 
 TEST_F(ExtractTest, SkeletonOfAnotherIsNotReplaced) {

@@ -43,6 +43,7 @@ bool has_type(const json& value, const std::string& type) {
   if (type == "string") return value.is_string();
   if (type == "boolean") return value.is_boolean();
   if (type == "array") return value.is_array();
+  if (type == "null") return value.is_null();
   if (type != "counts" || !value.is_object()) return false;
   for (const auto& [name, count] : value.items()) {
     if (name.empty() || !count.is_number_integer()) return false;
@@ -114,11 +115,14 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
   const json shape = {
       {"added", "array"},          {"skipped", "array"},       {"other_fidelity", "array"},
       {"other_metadata", "array"}, {"other_reading", "array"}, {"takes_not_found", "array"},
-      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape}};
+      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape},
+      {"replaced", "array"},       {"same_source", "array"},   {"notes", "array"},
+      {"other_kinds", "counts"},   {"estimate", "null"}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);
-  expect_shape(first["rejected"][0], {{"path", "string"}, {"line", "integer"}, {"why", "string"}},
+  expect_shape(first["rejected"][0],
+               {{"path", "string"}, {"line", "integer"}, {"why", "string"}, {"advice", "string"}},
                "rejected");
   EXPECT_EQ(first["rejected"][0]["line"], 4);
   const json second = document({"ingest", "lib.rpz", "takes"}, 3);

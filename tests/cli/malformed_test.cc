@@ -33,6 +33,7 @@ TEST_F(MalformedTest, EachBadFileIsNamedAndTheGoodOnesAreStored) {
   EXPECT_EQ(report.at("rejected").size(), bad);
   for (const auto& rejected : report.at("rejected")) {
     EXPECT_GT(rejected.at("line").get<long>(), 0) << rejected;
+    EXPECT_NE(rejected.at("advice"), "") << rejected;
     EXPECT_EQ(rejected.at("why").get<std::string>().find('\n'), std::string::npos) << rejected;
   }
   output({"verify", "lib.rpz"});

@@ -157,7 +157,8 @@ TEST_F(MistakesTest, WhatAnIngestLeavesOutIsTold) {
   EXPECT_NE(again.err.find("1 take stored with another fidelity"), std::string::npos) << again.err;
   EXPECT_NE(again.err.find("--replace"), std::string::npos) << again.err;
   EXPECT_EQ(document({"ingest", "lib.rpz", "one"}).at("other_fidelity").size(), 1U);
-  EXPECT_EQ(reprise({"ingest", "lib.rpz", "one", "--fidelity", "preview"}).err, "");
+  EXPECT_EQ(reprise({"ingest", "lib.rpz", "one", "--fidelity", "preview"}).err,
+            "1 file of other kinds: 1 .json\n");
 
   fs::create_directory(folder() / "empty");
   EXPECT_NE(reprise({"ingest", "lib.rpz", "empty"}).err.find("no BVH or AMC"), std::string::npos);

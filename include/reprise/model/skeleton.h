@@ -67,6 +67,7 @@ struct Skeleton {
   /// `MOTION`, or the whole ASF file. Parsing it gives this skeleton again.
   std::string source_text;
   std::string asf_name;  ///< ASF: file name without folder and extension, else empty
+  bool radians = false;  ///< ASF: `angle rad`, which holds for AMC files that say nothing else
 };
 
 /// True if both have the same names, hierarchy, channels and rotation orders, so that their takes
