@@ -89,6 +89,8 @@ class Ingest {
     report_.other_fidelity = std::move(survey.other_fidelity);
     report_.other_metadata = std::move(survey.other_metadata);
     report_.other_reading = std::move(survey.other_reading);
+    report_.assumed_units = std::move(survey.readings.assumed_units);
+    report_.implausible_units = std::move(survey.readings.implausible_units);
     if (options_.dry_run) {
       for (const FreshTake& fresh : survey.fresh) report_.added.push_back(fresh.file.name);
     } else {

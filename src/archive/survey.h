@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "archive/metadata.h"
+#include "archive/reading_choice.h"
 #include "archive/take_identity.h"
 #include "reprise/error.h"
 
@@ -17,6 +18,7 @@ struct Survey {
   /// Of `skipped`, as in IngestReport.
   std::vector<std::string> other_fidelity, other_metadata, other_reading;
   std::vector<RejectedInput> rejected;
+  ReadingReport readings;  ///< of `fresh`
 };
 
 /// Reads every file once and compares it with what `store` holds (null: nothing). All lists are in

@@ -108,7 +108,15 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
       ->type_name("FILE");
   add_number(app, "--unit-mm", options.bvh_millimetres_per_unit, 1 / greatest_millimetres_per_unit,
              greatest_millimetres_per_unit,
-             "Millimetres in a length unit of BVH files (default 10)");
+             "Millimetres in a length unit of BVH files (default: guessed from the body, else 10)");
+  app.add_option_function<std::string>(
+         "--up",
+         [&options](const std::string& text) {
+           options.up = find_up_axis(text);
+           if (!options.up) refuse_value("--up", text, "x, y, z, -x, -y or -z");
+         },
+         "The axis that points up: x, y, z, -x, -y or -z (default: found from the motion)")
+      ->type_name("AXIS");
   add_number(app, "--fps", options.amc_frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
              "Frames a second of AMC files, which do not say (default 120)");
 }

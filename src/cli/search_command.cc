@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "cli/text.h"
 #include "reprise/error.h"
+#include "reprise/query/take_reading.h"
 
 namespace reprise::cli {
 namespace {
@@ -18,8 +19,10 @@ constexpr std::uint64_t most_results = 1'000'000'000;
 
 /// A file, or stdin: a BVH, or an AMC where its ASF is given.
 Take read_example(const std::filesystem::path& path, const ReadOptions& options) {
-  return path == "-" ? read_motion_from_stdin(options.asf, options)
-                     : read_motion_file(path, options);
+  Take take =
+      path == "-" ? read_motion_from_stdin(options.asf, options) : read_motion_file(path, options);
+  read_as_meant(take, options);
+  return take;
 }
 
 std::string results_table(const std::vector<SearchResult>& results, bool bold) {
@@ -99,8 +102,10 @@ void SearchCommand::check() {
   if (options_.from && options_.to && *options_.from >= *options_.to) {
     throw Error(ErrorCode::usage, "--from must be before --to");
   }
-  if (!id_.empty() && (read_.asf || read_.bvh_millimetres_per_unit || read_.amc_frame_rate)) {
-    throw Error(ErrorCode::usage, "--asf, --unit-mm and --fps are for an example from a FILE");
+  if (!id_.empty() &&
+      (read_.asf || read_.bvh_millimetres_per_unit || read_.amc_frame_rate || read_.up)) {
+    throw Error(ErrorCode::usage,
+                "--asf, --unit-mm, --up and --fps are for an example from a FILE");
   }
   if (options_.across_subjects && id_.empty()) {
     throw Error(ErrorCode::usage, "--across-subjects needs --id: a file has no subject");

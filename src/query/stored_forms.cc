@@ -97,6 +97,9 @@ std::shared_ptr<const Skeleton> skeleton_of(const ProportionsRecord& record, Mot
             ? read_bvh_skeleton(record.source_text, where, record.millimetres_per_unit)
             : read_asf(record.source_text, where));
     skeleton->asf_name = record.asf_name;
+    skeleton->up = record.up;
+    skeleton->up_assumed = record.up_assumed;
+    skeleton->unit_assumed = record.unit_assumed;
     return skeleton;
   } catch (const Error& error) {
     throw_damaged(error.reason());
@@ -119,6 +122,9 @@ ProportionsRecord proportions_record(const Skeleton& skeleton, const TakeLayout&
                                      double frame_rate, bool frame_rate_assumed) {
   ProportionsRecord record;
   record.millimetres_per_unit = skeleton.millimetres_per_unit;
+  record.up = skeleton.up;
+  record.up_assumed = skeleton.up_assumed;
+  record.unit_assumed = skeleton.unit_assumed;
   record.frame_rate = frame_rate;
   record.frame_rate_assumed = frame_rate_assumed;
   record.asf_name = skeleton.asf_name;
@@ -141,6 +147,9 @@ ProportionsRecord read_proportions(const ArchiveStore& store, std::int64_t id) {
   if (!(record.millimetres_per_unit >= 1 / greatest_unit_mm &&
         record.millimetres_per_unit <= greatest_unit_mm)) {
     throw_damaged("a skeleton's unit makes no sense");
+  }
+  if (static_cast<int>(record.up) > static_cast<int>(UpAxis::minus_z)) {
+    throw_damaged("a skeleton's up axis makes no sense");
   }
   checked_skeleton(record, store.skeleton(record.skeleton));
   return record;

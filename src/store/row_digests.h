@@ -8,6 +8,10 @@
 
 namespace reprise {
 
+/// Bits of the column `assumed` of proportions. Persisted: never change a value.
+constexpr std::int64_t assumed_frame_rate = 1, assumed_unit = 2, assumed_up = 4;
+std::int64_t assumed_bits(const ProportionsRecord& record);
+
 ShortDigest row_digest(const SkeletonRecord& record);
 Digest proportions_identity(const ProportionsRecord& record);
 Digest space_digest(const Digest& structure, const Digest& base, const Bytes& data);

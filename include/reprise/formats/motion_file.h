@@ -28,7 +28,9 @@ struct InputLimits {
 
 /// What the files themselves do not say.
 struct ReadOptions {
-  std::optional<double> bvh_millimetres_per_unit;  ///< else 10, or what a take is stored with
+  /// Else 10, until it is guessed from the body (take_reading.h), or what a take is stored with.
+  std::optional<double> bvh_millimetres_per_unit;
+  std::optional<UpAxis> up;  ///< else Y, until it is found from the motion (take_reading.h)
   std::optional<double> amc_frame_rate;      ///< else 120 Hz, and the take says that it was assumed
   std::optional<std::filesystem::path> asf;  ///< else the skeleton beside the AMC (find_asf)
 };
