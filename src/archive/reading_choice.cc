@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "query/stored_readings.h"
 #include "store/digest.h"
 
 namespace reprise {
@@ -24,67 +25,14 @@ struct Group {
   std::vector<ReadingEvidence> evidence;
 };
 
-/// What was settled for the takes that are stored.
-class StoredReadings {
- public:
-  explicit StoredReadings(const ArchiveStore* store) : store_(store) {}
-
-  /// Of takes of the same text: one that somebody gave, else the first.
-  std::optional<ProportionsRecord> of_text(const Skeleton& skeleton) {
-    if (store_ == nullptr) return std::nullopt;
-    const Digest structure = digest_of(structure_bytes(skeleton));
-    const std::optional<SkeletonRecord> known = store_->find_skeleton(structure);
-    if (!known) return std::nullopt;
-    std::optional<ProportionsRecord> found;
-    for (const ProportionsRecord& record : of_skeleton(known->id)) {
-      if (record.source_text != skeleton.source_text) continue;
-      if (!found || rank(record) < rank(*found)) found = record;
-    }
-    return found;
-  }
-
-  /// Of the take itself, if its text is still the same.
-  std::optional<ProportionsRecord> of_take(const FreshTake& fresh) const {
-    if (store_ == nullptr || !fresh.replaces) return std::nullopt;
-    const std::optional<TakeRecord> stored = store_->find_take(fresh.file.name);
-    if (!stored) return std::nullopt;
-    ProportionsRecord record = store_->proportions(stored->proportions);
-    if (record.source_text != fresh.outline.skeleton->source_text) return std::nullopt;
-    return record;
-  }
-
- private:
-  static int rank(const ProportionsRecord& record) {
-    return (record.unit_assumed ? 2 : 0) + (record.up_assumed ? 1 : 0);
-  }
-
-  const std::vector<ProportionsRecord>& of_skeleton(std::int64_t id) {
-    const auto [known, fresh] = records_.try_emplace(id);
-    if (fresh) {
-      for (const std::int64_t proportions : store_->proportions_of_skeleton(id)) {
-        known->second.push_back(store_->proportions(proportions));
-      }
-    }
-    return known->second;
-  }
-
-  const ArchiveStore* store_;
-  std::map<std::int64_t, std::vector<ProportionsRecord>> records_;
-};
-
-/// Puts what is stored in the place of what was found, where nobody said it.
-void take_over(const ProportionsRecord& stored, bool its_own, TakeReading& reading) {
-  if (reading.unit_assumed) {
-    if (reading.height_mm) {
-      *reading.height_mm *= stored.millimetres_per_unit / reading.millimetres_per_unit;
-    }
-    reading.millimetres_per_unit = stored.millimetres_per_unit;
-    reading.unit_assumed = !its_own || stored.unit_assumed;
-  }
-  if (reading.up_assumed) {
-    reading.up = stored.up;
-    reading.up_assumed = !its_own || stored.up_assumed;
-  }
+/// What the take itself is stored with, if its text is still the same.
+std::optional<ProportionsRecord> stored_of_take(const ArchiveStore* store, const FreshTake& fresh) {
+  if (store == nullptr || !fresh.replaces) return std::nullopt;
+  const std::optional<TakeRecord> stored = store->find_take(fresh.file.name);
+  if (!stored) return std::nullopt;
+  ProportionsRecord record = store->proportions(stored->proportions);
+  if (record.source_text != fresh.outline.skeleton->source_text) return std::nullopt;
+  return record;
 }
 
 class UnitTally {
@@ -138,19 +86,20 @@ ReadingReport settle_readings(std::vector<FreshTake>& fresh, const ReadOptions& 
     group.members.push_back(i);
     group.evidence.push_back(fresh[i].outline.reading_evidence);
   }
-  StoredReadings stored(store);
+  std::optional<StoredReadings> stored;
+  if (store != nullptr) stored.emplace(*store);
   std::map<std::size_t, TakeReading> readings;  // in the order of takes
   for (const auto& [key, group] : groups) {
     const FreshTake& first = fresh[group.members.front()];
     ReadOptions said = options;
     said.bvh_millimetres_per_unit = key.unit_mm;
     const TakeReading found = find_reading(*first.outline.skeleton, group.evidence, said);
-    const std::optional<ProportionsRecord> known = stored.of_text(*first.outline.skeleton);
+    const ProportionsRecord* known = stored ? stored->of_text(*first.outline.skeleton) : nullptr;
     for (const std::size_t i : group.members) {
       TakeReading reading = found;
-      if (const std::optional<ProportionsRecord> own = stored.of_take(fresh[i])) {
+      if (const std::optional<ProportionsRecord> own = stored_of_take(store, fresh[i])) {
         take_over(*own, true, reading);
-      } else if (known) {
+      } else if (known != nullptr) {
         take_over(*known, false, reading);
       }
       readings[i] = reading;

@@ -17,11 +17,13 @@ constexpr double longest_time = 1e9;
 constexpr double furthest_mm = 1e9;
 constexpr std::uint64_t most_results = 1'000'000'000;
 
-/// A file, or stdin: a BVH, or an AMC where its ASF is given.
-Take read_example(const std::filesystem::path& path, const ReadOptions& options) {
+/// A file, or stdin: a BVH, or an AMC where its ASF is given. It is read as the archive's takes of
+/// the same skeleton are.
+Take read_example(const std::filesystem::path& path, const ReadOptions& options,
+                  const std::filesystem::path& archive) {
   Take take =
       path == "-" ? read_motion_from_stdin(options.asf, options) : read_motion_file(path, options);
-  read_as_meant(take, options);
+  read_as_stored(take, options, archive);
   return take;
 }
 
@@ -115,7 +117,7 @@ void SearchCommand::check() {
 ExitCode SearchCommand::run(Console& console) {
   if (!joint_map_.empty()) setup_.joint_map = read_joint_map(joint_map_);
   std::optional<Take> example;
-  if (!like_.empty()) example = read_example(like_, read_);
+  if (!like_.empty()) example = read_example(like_, read_, archive_);
   std::optional<Archive::Selection> selection;
   {
     const Archive archive(archive_);

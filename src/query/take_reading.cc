@@ -303,12 +303,6 @@ std::shared_ptr<const Skeleton> read_as(const Skeleton& skeleton, const TakeRead
   return read;
 }
 
-Take read_motion_file_as_meant(const std::filesystem::path& path, const ReadOptions& options) {
-  Take take = read_motion_file(path, options);
-  read_as_meant(take, options);
-  return take;
-}
-
 void read_as_meant(Take& take, const ReadOptions& options) {
   const ReadingEvidence evidence = reading_evidence(take);
   take.skeleton = read_as(*take.skeleton, find_reading(*take.skeleton, {&evidence, 1}, options));

@@ -61,9 +61,9 @@ TakeReading find_reading(const Skeleton& skeleton, std::span<const ReadingEviden
 /// The skeleton, read that way.
 std::shared_ptr<const Skeleton> read_as(const Skeleton& skeleton, const TakeReading& reading);
 
-/// read_motion_file, and then the reading that the take alone says.
-Take read_motion_file_as_meant(const std::filesystem::path& path, const ReadOptions& options = {});
 /// Gives a take that was just read the reading that it says itself.
 void read_as_meant(Take& take, const ReadOptions& options);
+/// Gives it the reading of takes with the same skeleton text in an archive, else its own.
+void read_as_stored(Take& take, const ReadOptions& options, const std::filesystem::path& archive);
 
 }  // namespace reprise
