@@ -148,9 +148,6 @@ ProportionsRecord read_proportions(const ArchiveStore& store, std::int64_t id) {
         record.millimetres_per_unit <= greatest_unit_mm)) {
     throw_damaged("a skeleton's unit makes no sense");
   }
-  if (static_cast<int>(record.up) > static_cast<int>(UpAxis::minus_z)) {
-    throw_damaged("a skeleton's up axis makes no sense");
-  }
   checked_skeleton(record, store.skeleton(record.skeleton));
   return record;
 }

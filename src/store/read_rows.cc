@@ -81,7 +81,9 @@ ProportionsRecord ArchiveStore::proportions(std::int64_t id) const {
   record.id = id;
   record.skeleton = row.integer();
   record.millimetres_per_unit = row.real();
-  record.up = static_cast<UpAxis>(row.integer());
+  const std::optional<UpAxis> up = up_of_row(row.integer());
+  if (!up) throw_damaged(what);
+  record.up = *up;
   record.frame_rate = row.real();
   const std::int64_t assumed = row.integer();
   record.frame_rate_assumed = (assumed & assumed_frame_rate) != 0;

@@ -42,8 +42,9 @@ SharedFacts read_shared_facts(const Database& database, std::int64_t proportions
   SharedFacts facts;
   facts.skeleton = row.integer();
   facts.unit_mm = row.real();
-  facts.up = static_cast<UpAxis>(row.integer());
-  if (facts.up < UpAxis::x || facts.up > UpAxis::minus_z) throw_damaged("an axis");
+  const std::optional<UpAxis> up = up_of_row(row.integer());
+  if (!up) throw_damaged("an axis that points up");
+  facts.up = *up;
   facts.frame_rate = row.real();
   if (!is_frame_rate(facts.frame_rate)) throw_damaged("a frame rate");
   const std::int64_t assumed = row.integer();

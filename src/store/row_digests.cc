@@ -45,6 +45,11 @@ std::int64_t assumed_bits(const ProportionsRecord& record) {
          (record.unit_assumed ? assumed_unit : 0) | (record.up_assumed ? assumed_up : 0);
 }
 
+std::optional<UpAxis> up_of_row(std::int64_t value) {
+  if (value < 0 || value > static_cast<int>(UpAxis::minus_z)) return std::nullopt;
+  return static_cast<UpAxis>(value);
+}
+
 Digest proportions_identity(const ProportionsRecord& record) {
   Hasher hasher;
   hasher.add_real(record.millimetres_per_unit);

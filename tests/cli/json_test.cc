@@ -31,6 +31,8 @@ const json take_shape = {{"id", "string"},         {"name", "string"},
                          {"subject", "string"},    {"format", "string"},
                          {"frames", "integer"},    {"frame_rate", "number"},
                          {"seconds", "number"},    {"fidelity", "string"},
+                         {"unit_mm", "number"},    {"unit_assumed", "boolean"},
+                         {"up", "string"},         {"up_assumed", "boolean"},
                          {"raw_bytes", "integer"}, {"payload_bytes", "integer"},
                          {"error_mm", error_shape}};
 const json clip_shape = {{"id", "string"},           {"take", "string"},    {"kind", "string"},
@@ -112,9 +114,10 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
   write_file(folder() / "takes/broken.bvh", "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 nonsense\n");
   const json first = document({"ingest", "lib.rpz", "takes"}, 3);
   const json shape = {
-      {"added", "array"},          {"skipped", "array"},       {"other_fidelity", "array"},
-      {"other_metadata", "array"}, {"other_reading", "array"}, {"takes_not_found", "array"},
-      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape}};
+      {"added", "array"},          {"skipped", "array"},           {"other_fidelity", "array"},
+      {"other_metadata", "array"}, {"other_reading", "array"},     {"takes_not_found", "array"},
+      {"assumed_units", "array"},  {"implausible_units", "array"}, {"rejected", "array"},
+      {"seconds", "number"},       {"stats", stats_shape}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);
