@@ -20,7 +20,7 @@ class ReadingTest : public CommandTest {
   void write_takes(const std::string& name, const Edit& edit) const {
     int number = 0;
     for (const Take& take : edited::synthetic_takes(takes, 3)) {
-      write_take(name + "/t" + std::to_string(number++) + ".bvh", edit(take));
+      write_take(fmt::format("{}/t{}.bvh", name, number++), edit(take));
     }
   }
 
@@ -130,7 +130,7 @@ TEST_F(ReadingTest, ANumberInTheMetadataThatMakesNoSenseIsToldWithItsLine) {
   write_takes("takes", as_it_is);
   for (const std::string cell : {"ten", "0", "-5", "1e9", "nan", "10 mm"}) {
     for (const std::string column : {"unit_mm", "fps"}) {
-      write_file(folder() / "rows.csv", "take," + column + "\nt1,10\nt2," + cell + "\n");
+      write_file(folder() / "rows.csv", fmt::format("take,{}\nt1,10\nt2,{}\n", column, cell));
       const Outcome outcome = reprise({"ingest", "lib.rpz", "takes", "--metadata", "rows.csv"});
       EXPECT_EQ(outcome.exit_code, 1) << cell;
       EXPECT_NE(outcome.err.find("rows.csv:3"), std::string::npos) << outcome.err;
@@ -179,7 +179,7 @@ TEST_F(ReadingTest, AFileIsReadAsTheTakesOfItsTextAre) {
 
 TEST_F(ReadingTest, AUnitThatNothingSaysIsTold) {
   const Take take = edited::renamed(edited::synthetic_takes(1, 2)[0], [](const std::string& name) {
-    return "Prop" + std::to_string(name.size()) + name.substr(0, 1);
+    return fmt::format("Prop{}{}", name.size(), name.substr(0, 1));
   });
   write_take("props/a.bvh", edited::with_skeleton(take, [](Skeleton& skeleton) {
                for (Joint& joint : skeleton.joints) joint.offset.x() = 3;
@@ -198,10 +198,10 @@ TEST_F(ReadingTest, AnAsfThatMakesABodyImplausibleIsTold) {
   EXPECT_EQ(document({"ingest", "good.rpz", "amc"}).at("implausible_units"), json::array());
   for (const auto& [name, text] : files_below(folder() / "amc")) {
     if (!name.ends_with(".asf")) continue;
-    std::string edited = text;
-    const auto at = edited.find("length 0.45");
+    const auto at = text.find("length 0.45");
     ASSERT_NE(at, std::string::npos);
-    write_file(folder() / "amc" / name, edited.replace(at, 11, "length 0.04"));
+    write_file(folder() / "amc" / name,
+               fmt::format("{}length 0.04{}", text.substr(0, at), text.substr(at + 11)));
   }
   const Outcome outcome = reprise({"ingest", "giants.rpz", "amc"});
   EXPECT_EQ(outcome.exit_code, 0);
@@ -284,7 +284,7 @@ TEST_F(ReadingTest, TheContentDoesNotDependOnOrderOrThreads) {
 TEST_F(ReadingTest, InfoSaysHowABodyWasFound) {
   int number = 0;
   write_take("lib/a.bvh", edited::renamed(edited::synthetic_takes(1, 2)[0], [&](const auto& name) {
-               return name == "Head" ? name : "J" + std::to_string(number++);
+               return name == "Head" ? name : fmt::format("J{}", number++);
              }));
   write_file(folder() / "map.txt", "chest = J11\n");
   output({"ingest", "lib.rpz", "lib"});
