@@ -32,7 +32,8 @@ class ReadingTest : public CommandTest {
   /// Distances of a search, by take.
   std::map<std::string, double> distances(const std::vector<std::string>& arguments) const {
     std::map<std::string, double> found;
-    for (const json& result : document(arguments).at("results")) {
+    const json results = document(arguments).at("results");
+    for (const json& result : results) {
       found[result.at("take")] = result.at("distance_mm");
     }
     return found;
