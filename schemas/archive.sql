@@ -7,7 +7,7 @@ CREATE TABLE meta(key TEXT PRIMARY KEY, value) WITHOUT ROWID;
 CREATE TABLE skeletons(id INTEGER PRIMARY KEY, structure BLOB NOT NULL, format INTEGER NOT NULL, joints INTEGER NOT NULL, channels INTEGER NOT NULL, root TEXT NOT NULL, digest BLOB NOT NULL);
 
 -- What the files of an actor say besides numbers: offsets and lengths, frame rate, headers.
-CREATE TABLE proportions(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES skeletons, identity BLOB NOT NULL, unit_mm REAL NOT NULL, frame_rate REAL NOT NULL, assumed INTEGER NOT NULL, asf_name TEXT NOT NULL, layout BLOB NOT NULL, text BLOB NOT NULL, digest BLOB NOT NULL);
+CREATE TABLE proportions(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES skeletons, identity BLOB NOT NULL, unit_mm REAL NOT NULL, up INTEGER NOT NULL, frame_rate REAL NOT NULL, assumed INTEGER NOT NULL, asf_name TEXT NOT NULL, layout BLOB NOT NULL, text BLOB NOT NULL, digest BLOB NOT NULL);
 
 -- Axes, and what else the coder needs before a take can be decoded.
 CREATE TABLE spaces(id INTEGER PRIMARY KEY, skeleton INTEGER NOT NULL REFERENCES skeletons, base INTEGER NOT NULL, data BLOB NOT NULL, digest BLOB NOT NULL);

@@ -72,6 +72,10 @@ struct TakeInfo {
   long frames = 0;
   double frame_rate = 0;
   bool frame_rate_assumed = false;
+  double unit_mm = 0;         ///< millimetres a unit of length of its file
+  bool unit_assumed = false;  ///< guessed from the body, or left at 10 mm
+  UpAxis up = UpAxis::y;
+  bool up_assumed = false;  ///< found from the motion, not given
   Fidelity fidelity;
   std::uint64_t raw_bytes = 0;   ///< 4 x channels x frames
   std::uint64_t text_bytes = 0;  ///< the source file
@@ -214,6 +218,15 @@ struct IngestEstimate {
   std::size_t sampled = 0;  ///< takes
 };
 
+/// Takes whose unit was not given.
+struct AssumedUnit {
+  double unit_mm = 0;
+  std::size_t takes = 0;
+  /// Of the bodies that it was guessed from, in mm; 0 where there are none, so that it is only the
+  /// most common unit.
+  double least_height_mm = 0, greatest_height_mm = 0;
+};
+
 struct IngestReport {
   std::vector<std::string> added;       ///< stored by this ingest
   std::vector<std::string> replaced;    ///< of `added`: in place of a take of the same name
@@ -230,6 +243,9 @@ struct IngestReport {
   /// Of `skipped`: stored with another unit or frame rate than was asked for.
   std::vector<std::string> other_reading;
   std::vector<RejectedInput> rejected;
+  std::vector<AssumedUnit> assumed_units;  ///< of the BVH files of `added`, by unit
+  /// Of `added`: ASF/AMC takes whose unit makes their body implausibly small or tall.
+  std::vector<std::string> implausible_units;
   std::vector<std::string> takes_not_found;  ///< of the metadata: rows that are of no input
   double seconds = 0;
 };

@@ -95,6 +95,8 @@ class Ingest {
     report_.other_fidelity = std::move(survey.other_fidelity);
     report_.other_metadata = std::move(survey.other_metadata);
     report_.other_reading = std::move(survey.other_reading);
+    report_.assumed_units = std::move(survey.readings.assumed_units);
+    report_.implausible_units = std::move(survey.readings.implausible_units);
     report_.same_source = std::move(survey.same_source);
     report_.notes = std::move(survey.notes);
     fresh_ = std::move(survey.fresh);

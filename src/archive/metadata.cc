@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/text_lines.h"
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 
@@ -88,6 +89,22 @@ std::string cell(const std::vector<std::string>& row, int column) {
   return column >= 0 && column < static_cast<int>(row.size()) ? row[column] : std::string();
 }
 
+/// The number of a cell, from 1/greatest to `greatest`, or none where it is empty.
+std::optional<double> number(const std::string& cell, const char* column, double greatest,
+                             const SourcePlace& place) {
+  const std::size_t from = cell.find_first_not_of(" \t");
+  if (from == std::string::npos) return std::nullopt;
+  const std::string_view text(cell.data() + from, cell.find_last_not_of(" \t") + 1 - from);
+  const std::optional<double> value = to_number(text);
+  if (!value || !(*value >= 1 / greatest) || !(*value <= greatest)) {
+    throw Error(ErrorCode::failed,
+                std::string("the column ") + column + " takes numbers such as 25.4, not '" +
+                    std::string(text) + "'",
+                place);
+  }
+  return value;
+}
+
 }  // namespace
 
 MetadataTable MetadataTable::read(const std::filesystem::path& path) {
@@ -97,7 +114,7 @@ MetadataTable MetadataTable::read(const std::filesystem::path& path) {
   const CsvRows csv = parse_csv(text, file);
   if (csv.rows.empty() || column_of(csv.rows[0].cells, "take") < 0) {
     throw Error(ErrorCode::failed, "the table has no column 'take'", {file, 1},
-                "its first line names the columns: take, subject, description, tags");
+                "its first line names the columns: take, subject, description, tags, unit_mm, fps");
   }
   const auto& header = csv.rows[0].cells;
   MetadataTable table;
@@ -106,7 +123,11 @@ MetadataTable MetadataTable::read(const std::filesystem::path& path) {
     const std::string take = cell(row, column_of(header, "take"));
     TakeMetadata metadata{cell(row, column_of(header, "subject")),
                           cell(row, column_of(header, "description")),
-                          cell(row, column_of(header, "tags"))};
+                          cell(row, column_of(header, "tags")),
+                          number(cell(row, column_of(header, "unit_mm")), "unit_mm",
+                                 ReadingLimits::greatest_unit_mm, {file, csv.rows[r].line}),
+                          number(cell(row, column_of(header, "fps")), "fps",
+                                 ReadingLimits::greatest_frame_rate, {file, csv.rows[r].line})};
     const auto [known, fresh] = table.rows_.emplace(take, metadata);
     if (!fresh && !(known->second == metadata)) {
       throw Error(ErrorCode::failed, "the table says two things of the take '" + take + "'",

@@ -47,10 +47,16 @@ void LayoutEvidence::add(const LayoutEvidence& other) {
   }
   for (std::size_t j = 0; j < travel.size(); ++j) {
     travel[j] += other.travel[j];
-    for (int a = 0; a < 3; ++a) upward[j][a] += other.upward[j][a];
+    orientations[j] += other.orientations[j];
   }
   first_frames.insert(first_frames.end(), other.first_frames.begin(), other.first_frames.end());
   values.add(other.values);
+}
+
+void LayoutEvidence::read_as(const Skeleton& skeleton, double millimetres_per_unit, UpAxis up) {
+  for (double& range : travel) range *= millimetres_per_unit / skeleton.millimetres_per_unit;
+  const Eigen::Matrix3d turn = turn_to_y(up) * turn_to_y(skeleton.up).transpose();
+  for (Eigen::Matrix3d& sum : orientations) sum = (turn * sum * turn.transpose()).eval();
 }
 
 LayoutEvidence layout_evidence(const PreparedTake& prepared) {
@@ -68,14 +74,15 @@ LayoutEvidence layout_evidence(const PreparedTake& prepared) {
     evidence.active.push_back(high[c] - low[c] > TrainingConstants::least_change);
   }
   std::vector<JointFrame> frames(skeleton.joints.size());
-  evidence.upward.assign(skeleton.joints.size(), {});
+  evidence.orientations.assign(skeleton.joints.size(), Eigen::Matrix3d::Zero());
+  const Eigen::Matrix3d to_y = turn_to_y(skeleton.up);
   const Index stride =
       std::max<Index>(1, std::lround(take.frame_rate / TrainingConstants::frames_a_second));
   for (Index f = 0; f < take.frames(); f += stride) {
     forward_kinematics(skeleton, {take.channels.row(f).data(), std::size_t(skeleton.channel_count)},
                        frames);
     for (std::size_t j = 0; j < frames.size(); ++j) {
-      for (int a = 0; a < 3; ++a) evidence.upward[j][a] += frames[j].rotation(1, a);
+      evidence.orientations[j] += to_y * frames[j].rotation * to_y.transpose();
     }
   }
   for (const Joint& joint : skeleton.joints) {
@@ -104,7 +111,7 @@ LayoutChoices choose_layout(const Skeleton& skeleton, const LayoutEvidence& evid
   }
   double highest = -1;
   for (int a = 0; a < 6; ++a) {
-    const double up = evidence.upward[choices.root_joint][a % 3] * (a < 3 ? 1 : -1);
+    const double up = evidence.orientations[choices.root_joint](1, a % 3) * (a < 3 ? 1 : -1);
     if (a == 0 || up > highest) {
       highest = up;
       choices.up_axis = a;

@@ -46,12 +46,15 @@ class ConstantValues {
 struct LayoutEvidence {
   std::vector<bool> active;
   std::vector<double> travel;  ///< of each joint: range of its position channels, mm
-  std::vector<std::array<double, 3>>
-      upward;  ///< of each joint: sums of the height of its three axes
+  /// Of each joint: sum of its orientations, in a world that is turned to Y with the joint's axes.
+  std::vector<Eigen::Matrix3d> orientations;
   std::vector<std::vector<double>> first_frames;  ///< of each take that has frames
   ConstantValues values;
 
   void add(const LayoutEvidence& other);
+  /// What the take would have said had it been read with another unit and up axis than `skeleton`
+  /// has.
+  void read_as(const Skeleton& skeleton, double millimetres_per_unit, UpAxis up);
 };
 LayoutEvidence layout_evidence(const PreparedTake& prepared);
 LayoutChoices choose_layout(const Skeleton& skeleton, const LayoutEvidence& evidence);

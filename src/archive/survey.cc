@@ -19,10 +19,11 @@ struct Surveyed {
   TakeOutline outline;
 };
 
-Surveyed look_at(const InputFile& file, const IngestOptions& options) {
+Surveyed look_at(const InputFile& file, const IngestOptions& options,
+                 const MetadataTable& metadata) {
   Surveyed surveyed;
   try {
-    surveyed.outline = outline_take(file, options.read);
+    surveyed.outline = outline_take(file, read_options(options.read, metadata.find(file.name)));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::rejected_input && error.code() != ErrorCode::limit) throw;
     surveyed.rejected = rejection(file, error);
@@ -65,7 +66,7 @@ class Deciding {
     const bool same_source = stored.info.source_digest == fresh.outline.source_digest;
     const bool same_fidelity = stored.info.fidelity == options_.fidelity;
     const bool same_metadata = told_by(row, stored.info);
-    const bool same_reading = read_as_asked(fresh.outline, stored);
+    const bool same_reading = read_as_asked(fresh.outline, stored, row);
     const bool same = same_fidelity && same_metadata && same_reading;
     if (same_source && (same || !options_.replace)) {
       survey_.skipped.push_back(name);
@@ -75,7 +76,9 @@ class Deciding {
     } else if (options_.replace) {
       // Without a row nothing is said of the take, and what was said before stays.
       if (row == nullptr) {
-        fresh.metadata = {stored.info.subject, stored.info.description, stored.info.tags};
+        fresh.metadata.subject = stored.info.subject;
+        fresh.metadata.description = stored.info.description;
+        fresh.metadata.tags = stored.info.tags;
       }
       fresh.replaces = true;
       survey_.fresh.push_back(std::move(fresh));
@@ -87,13 +90,14 @@ class Deciding {
     }
   }
 
-  /// Whether a stored take has the unit or frame rate that is asked for, where one is.
-  bool read_as_asked(const TakeOutline& outline, const TakeRecord& stored) const {
-    const ReadOptions& read = options_.read;
+  /// Whether a stored take has the unit, up axis or frame rate that is asked for, where one is.
+  bool read_as_asked(const TakeOutline& outline, const TakeRecord& stored,
+                     const TakeMetadata* row) const {
+    const ReadOptions read = read_options(options_.read, row);
+    if (read.up && *read.up != stored.info.up) return false;
     if (read.frame_rate && outline.frame_rate != stored.info.frame_rate) return false;
     return stored.info.format == MotionFormat::asf_amc || !read.bvh_millimetres_per_unit ||
-           outline.skeleton->millimetres_per_unit ==
-               store_->proportions(stored.proportions).millimetres_per_unit;
+           outline.skeleton->millimetres_per_unit == stored.info.unit_mm;
   }
 
   /// The stored take that a file is about: of its name, or the same file under the name that it had
@@ -182,7 +186,8 @@ Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& op
   Survey survey;
   Deciding deciding(files, options, metadata, store, survey);
   produce_in_order(
-      files.size(), options.jobs, [&](std::size_t i) { return look_at(files[i], options); },
+      files.size(), options.jobs,
+      [&](std::size_t i) { return look_at(files[i], options, metadata); },
       [&](std::size_t i, Surveyed surveyed) {
         tick(files[i].name);
         if (surveyed.rejected) {
@@ -193,6 +198,7 @@ Survey survey_files(const std::vector<InputFile>& files, const IngestOptions& op
       });
   reject_too_large(memory_bytes, survey);
   describe_fresh(store, survey);
+  survey.readings = settle_readings(survey.fresh, options.read, store);
   return survey;
 }
 

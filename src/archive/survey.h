@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "archive/metadata.h"
+#include "archive/reading_choice.h"
 #include "archive/take_identity.h"
 #include "reprise/error.h"
 
@@ -19,6 +20,7 @@ struct Survey {
   std::vector<SameSource> same_source;  ///< of `fresh`, as in IngestReport
   std::vector<InputNote> notes;         ///< of `fresh`
   std::vector<RejectedInput> rejected;
+  ReadingReport readings;  ///< of `fresh`
 };
 
 /// Reads every file once and compares it with what `store` holds (null: nothing). All lists are in

@@ -64,12 +64,18 @@ TakeOutline outline_take(const InputFile& file, const ReadOptions& options) {
   outline.content = content_digest(*take.skeleton, take.channels, 0, take.frames());
   outline.skeleton = take.skeleton;
   outline.evidence = layout_evidence(prepare_take(take));
+  outline.reading_evidence = reading_evidence(take);
   outline.frames = take.frames();
   outline.frame_rate = take.frame_rate;
   outline.frame_rate_assumed = take.frame_rate_assumed;
   outline.layout = take.layout;
   outline.notes = take.notes;
   return outline;
+}
+
+void read_as(TakeOutline& outline, const TakeReading& reading) {
+  outline.evidence.read_as(*outline.skeleton, reading.millimetres_per_unit, reading.up);
+  outline.skeleton = read_as(*outline.skeleton, reading);
 }
 
 SourceTake read_source(const FreshTake& fresh, const ReadOptions& options) {
@@ -79,6 +85,10 @@ SourceTake read_source(const FreshTake& fresh, const ReadOptions& options) {
     throw Error(ErrorCode::rejected_input, "the file changed while it was being read",
                 {fresh.file.path.string()}, "run the ingest again");
   }
+  // The same bytes are the same skeleton; how they are read was settled over all takes.
+  source.take.skeleton = fresh.outline.skeleton;
+  source.take.frame_rate = fresh.outline.frame_rate;
+  source.take.frame_rate_assumed = fresh.outline.frame_rate_assumed;
   return source;
 }
 

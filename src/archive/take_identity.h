@@ -8,6 +8,7 @@
 #include "archive/metadata.h"
 #include "archive/space_training.h"
 #include "reprise/formats/motion_file.h"
+#include "reprise/query/take_reading.h"
 #include "store/archive_store.h"
 
 namespace reprise {
@@ -20,6 +21,7 @@ struct TakeOutline {
   Digest content{};
   std::shared_ptr<const Skeleton> skeleton;
   LayoutEvidence evidence;
+  ReadingEvidence reading_evidence;
   long frames = 0;
   double frame_rate = 0;
   bool frame_rate_assumed = false;
@@ -34,6 +36,9 @@ struct FreshTake {
   TakeMetadata metadata;  ///< what is known of it besides the file; an empty subject is the file's
   bool replaces = false;
 };
+
+/// Gives an outline the unit and the up axis that its takes are read with.
+void read_as(TakeOutline& outline, const TakeReading& reading);
 
 /// Throws Error (rejected_input).
 TakeOutline outline_take(const InputFile& file, const ReadOptions& options);

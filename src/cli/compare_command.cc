@@ -8,6 +8,7 @@
 #include "cli/motion_input.h"
 #include "cli/text.h"
 #include "reprise/error.h"
+#include "reprise/query/take_reading.h"
 
 namespace fs = std::filesystem;
 
@@ -25,6 +26,16 @@ Take read_side(const fs::path& path, const fs::path& other, const ReadOptions& o
   return path == "-" ? read_motion_beside(other, options) : read_motion_file(path, options);
 }
 
+/// Reads both as they are meant: those of one skeleton text alike, whatever one of them does.
+void read_both_as_meant(Take& original, Take& decoded, const ReadOptions& options) {
+  read_as_meant(original, options);
+  if (decoded.skeleton->source_text == original.skeleton->source_text) {
+    decoded.skeleton = original.skeleton;
+  } else {
+    read_as_meant(decoded, options);
+  }
+}
+
 /// Frame rates that differ by less are one rate in other decimals.
 constexpr double rate_tolerance = 1e-3;
 
@@ -35,6 +46,11 @@ void warn_of_differences(const Take& original, const Take& decoded, const Consol
     console.message(
         fmt::format("the frame rates differ, {:.6g} and {:.6g} Hz; frames are compared one by one",
                     rate, decoded.frame_rate));
+  }
+  const double unit = original.skeleton->millimetres_per_unit;
+  if (decoded.skeleton->millimetres_per_unit != unit) {
+    console.message(fmt::format("the units are taken for {:.6g} and {:.6g} mm; --unit-mm says one",
+                                unit, decoded.skeleton->millimetres_per_unit));
   }
   for (std::size_t j = 0; j < original.skeleton->joints.size(); ++j) {
     const std::string& name = original.skeleton->joints[j].name;
@@ -92,8 +108,9 @@ void CompareCommand::check() {
 }
 
 ExitCode CompareCommand::run(Console& console) {
-  const Take original = read_side(original_, decoded_, read_);
-  const Take decoded = read_side(decoded_, original_, read_);
+  Take original = read_side(original_, decoded_, read_);
+  Take decoded = read_side(decoded_, original_, read_);
+  read_both_as_meant(original, decoded, read_);
   const Comparison comparison = compare_takes(original, decoded);
   warn_of_differences(original, decoded, console);
   console.result(comparison_text(comparison, original));

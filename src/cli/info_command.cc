@@ -72,7 +72,10 @@ std::string take_text(const TakeInfo& take, const Skeleton& skeleton,
   if (!take.description.empty()) table.add({"description", take.description});
   if (!take.tags.empty()) table.add({"tags", take.tags});
   table.add({"format", format_name(take.format)});
-  table.add({"unit", fmt::format("{:.6g} mm", skeleton.millimetres_per_unit)});
+  table.add(
+      {"unit", fmt::format("{:.6g} mm{}", take.unit_mm, take.unit_assumed ? " (assumed)" : "")});
+  table.add(
+      {"up", fmt::format("{}{}", up_axis_name(take.up), take.up_assumed ? " (assumed)" : "")});
   table.add({"length", fmt::format("{} at {:.6g} Hz{}, {:.3f} s",
                                    format_count(static_cast<std::uint64_t>(take.frames), "frame"),
                                    take.frame_rate, take.frame_rate_assumed ? " (assumed)" : "",
@@ -103,23 +106,29 @@ Json clips_array(const std::vector<ClipInfo>& clips) {
   return entries;
 }
 
-/// Which joint of the skeleton each joint of a body is; "" where there is none.
-std::vector<std::pair<std::string, std::string>> body_of(const Skeleton& skeleton,
-                                                         const JointMap& map) {
+/// A joint of a body: its name, that of the skeleton's joint, "" where there is none, and how it
+/// was found.
+struct FoundJoint {
+  std::string body_joint, joint, found_by;
+};
+
+std::vector<FoundJoint> body_of(const Skeleton& skeleton, const JointMap& map) {
   const BodyMatch match = match_body(skeleton, map);
-  std::vector<std::pair<std::string, std::string>> body;
+  std::vector<FoundJoint> body;
   for (std::size_t i = 0; i < body_joint_count; ++i) {
     const int joint = match.joints[i];
-    body.emplace_back(body_joint_name(static_cast<BodyJoint>(i)),
-                      joint < 0 ? "" : skeleton.joints[static_cast<std::size_t>(joint)].name);
+    body.push_back({std::string(body_joint_name(static_cast<BodyJoint>(i))),
+                    joint < 0 ? "" : skeleton.joints[static_cast<std::size_t>(joint)].name,
+                    std::string(body_source_name(match.sources[i]))});
   }
   return body;
 }
 
 std::string body_text(const Skeleton& skeleton, const JointMap& map) {
-  Table table = facts();
-  for (const auto& [body_joint, joint] : body_of(skeleton, map)) {
-    table.add({body_joint, joint.empty() ? "-" : joint});
+  Table table({{"", left}, {"", left}, {"", left}});
+  for (const FoundJoint& found : body_of(skeleton, map)) {
+    table.add({found.body_joint, found.joint.empty() ? "-" : found.joint,
+               found.joint.empty() ? "" : "by " + found.found_by});
   }
   return (match_body(skeleton, map).is_body() ? "\nbody\n" : "\nno whole body\n") + table.text();
 }
@@ -144,7 +153,13 @@ Json key_poses_array(const Take& take, const JointMap& map) {
 
 Json body_document(const Skeleton& skeleton, const JointMap& map) {
   Json fields = Json::object();
-  for (const auto& [body_joint, joint] : body_of(skeleton, map)) fields[body_joint] = joint;
+  for (const FoundJoint& found : body_of(skeleton, map)) fields[found.body_joint] = found.joint;
+  return fields;
+}
+
+Json body_sources(const Skeleton& skeleton, const JointMap& map) {
+  Json fields = Json::object();
+  for (const FoundJoint& found : body_of(skeleton, map)) fields[found.body_joint] = found.found_by;
   return fields;
 }
 
@@ -216,9 +231,9 @@ ExitCode InfoCommand::run(Console& console) {
     console.result(take_text(selection.take, *take.skeleton, clips) + key_poses_text(take, map) +
                    body_text(*take.skeleton, map));
     Json document = take_document(selection.take, *take.skeleton, clips);
-    document["take"]["unit_mm"] = take.skeleton->millimetres_per_unit;
     document["take"]["key_poses"] = key_poses_array(take, map);
     document["take"]["body"] = body_document(*take.skeleton, map);
+    document["take"]["body_found_by"] = body_sources(*take.skeleton, map);
     console.document(document);
   }
   return exit_done;

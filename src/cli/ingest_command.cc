@@ -49,6 +49,19 @@ std::string with_names(const std::string& text, const std::vector<std::string>& 
   return text.substr(0, end) + lines + text.substr(end);
 }
 
+/// "1000 mm, guessed for 3 takes by bodies of 1.70 to 1.82 m".
+std::string unit_text(const AssumedUnit& unit) {
+  const std::string takes = format_count(unit.takes, "take");
+  if (unit.greatest_height_mm == 0) {
+    return fmt::format("{:.6g} mm, assumed for {} without a body", unit.unit_mm, takes);
+  }
+  constexpr double metre = 1000;
+  const std::string least = format_number(unit.least_height_mm / metre, 2);
+  const std::string greatest = format_number(unit.greatest_height_mm / metre, 2);
+  const std::string heights = least == greatest ? least : least + " to " + greatest;
+  return fmt::format("{:.6g} mm, guessed for {} by bodies of {} m", unit.unit_mm, takes, heights);
+}
+
 std::string summary(const IngestReport& report, const ArchiveStats& stats, bool dry_run) {
   Table table({{"", Table::Align::left}, {"", Table::Align::left}});
   const std::size_t replaced = report.replaced.size();
@@ -70,6 +83,7 @@ std::string summary(const IngestReport& report, const ArchiveStats& stats, bool 
                                        std::max(1.0, report.estimate->seconds),
                                        format_count(report.estimate->sampled, "take"))});
   }
+  for (const AssumedUnit& unit : report.assumed_units) table.add({"unit", unit_text(unit)});
   if (stats.takes > 0) {
     table.add(
         {"archive", fmt::format("{}, {} of motion in {}", format_count(stats.takes, "take"),
@@ -100,6 +114,14 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
                 {"seconds", report.estimate->seconds},
                 {"sampled", report.estimate->sampled}};
   }
+  Json assumed_units = Json::array();
+  for (const AssumedUnit& unit : report.assumed_units) {
+    Json entry = {{"unit_mm", unit.unit_mm}, {"takes", unit.takes}};
+    if (unit.greatest_height_mm > 0) {
+      entry["height_mm"] = {unit.least_height_mm, unit.greatest_height_mm};
+    }
+    assumed_units.push_back(entry);
+  }
   return {{"added", report.added},
           {"replaced", report.replaced},
           {"same_source", same},
@@ -107,6 +129,8 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
           {"other_fidelity", report.other_fidelity},
           {"other_metadata", report.other_metadata},
           {"other_reading", report.other_reading},
+          {"assumed_units", assumed_units},
+          {"implausible_units", report.implausible_units},
           {"takes_not_found", report.takes_not_found},
           {"rejected", rejected},
           {"notes", notes},
@@ -193,7 +217,7 @@ void IngestCommand::setup(CLI::App& app) {
                    "Threads (default: all); the result is the same for any number");
   add_read_options(app, options_.read);
   add_input_file(app, "--metadata", metadata_,
-                 "CSV with the columns take, subject, description, tags; - is stdin");
+                 "CSV with the columns take, subject, description, tags, unit_mm, fps; - is stdin");
   app.add_option_function<std::string>(
          "--prefix", [this](const std::string& text) { options_.prefix = checked_prefix(text); },
          "Put P/ in front of the names of this ingest")
@@ -267,10 +291,25 @@ ExitCode IngestCommand::run(Console& console) {
                     format_count(report.other_metadata.size(), "take")));
   }
   if (!report.other_reading.empty()) {
-    console.message(fmt::format(
-        "{} stored with another unit or frame rate than asked for, and kept so; --replace stores "
-        "anew",
-        format_count(report.other_reading.size(), "take")));
+    console.message(
+        fmt::format("{} stored with another unit, up axis or frame rate than asked for, and kept "
+                    "so; --replace stores "
+                    "anew",
+                    format_count(report.other_reading.size(), "take")));
+  }
+  for (const AssumedUnit& unit : report.assumed_units) {
+    if (unit.greatest_height_mm > 0) continue;
+    console.message(
+        fmt::format("nothing says the unit of {}, and there is no body of 0.9 to 2.3 m to guess it "
+                    "from: {:.6g} "
+                    "mm are assumed; --unit-mm says another",
+                    format_count(unit.takes, "take"), unit.unit_mm));
+  }
+  if (!report.implausible_units.empty()) {
+    console.message(printable(fmt::format(
+        "{} of bodies that their ASF's units make smaller than 0.9 m or taller than 2.3 m, such as "
+        "'{}'",
+        format_count(report.implausible_units.size(), "take"), report.implausible_units.front())));
   }
   if (!report.takes_not_found.empty()) {
     console.message(printable(fmt::format("{}: {} of no take that was given, such as '{}'",

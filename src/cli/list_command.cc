@@ -21,6 +21,8 @@ std::string takes_table(const std::vector<TakeInfo>& takes, bool bold) {
                {"FRAMES", right},
                {"RATE", right},
                {"LENGTH", right},
+               {"UNIT MM", right},
+               {"UP", left},
                {"FIDELITY", left},
                {"PAYLOAD", right},
                {"RATIO", right},
@@ -28,6 +30,7 @@ std::string takes_table(const std::vector<TakeInfo>& takes, bool bold) {
   for (const TakeInfo& take : takes) {
     table.add({take.name, take.subject, format_name(take.format), std::to_string(take.frames),
                format_number(take.frame_rate, 2), format_number(take.seconds(), 2),
+               fmt::format("{:.6g}", take.unit_mm), std::string(up_axis_name(take.up)),
                tier_name(take.fidelity.tier), format_size(take.payload_bytes),
                format_ratio(take.raw_bytes, take.payload_bytes),
                format_number(take.error_mm.mean, 2)});

@@ -112,7 +112,15 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
       ->allow_extra_args(false);
   add_number(app, "--unit-mm", options.bvh_millimetres_per_unit, 1 / greatest_millimetres_per_unit,
              greatest_millimetres_per_unit,
-             "Millimetres in a length unit of BVH files (default 10)");
+             "Millimetres in a length unit of BVH files (default: guessed from the body, else 10)");
+  app.add_option_function<std::string>(
+         "--up",
+         [&options](const std::string& text) {
+           options.up = find_up_axis(text);
+           if (!options.up) refuse_value("--up", text, "x, y, z, -x, -y or -z");
+         },
+         "The axis that points up: x, y, z, -x, -y or -z (default: found from the motion)")
+      ->type_name("AXIS");
   add_number(app, "--fps", options.frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
              "Frames a second, whatever the files say (else an AMC that says nothing has 120)");
   app.add_flag("--partial", options.partial, "Take a recording that was cut off as far as it goes");

@@ -66,7 +66,7 @@ CLI::Option* add_many(CLI::App& app, const std::string& name, std::vector<std::s
 /// -q, -v, --json, --color.
 void add_console_options(CLI::App& app, ConsoleOptions& options);
 
-/// --asf, --unit-mm, --fps, --partial: what motion files do not say themselves.
+/// --asf, --unit-mm, --up, --fps, --partial: what motion files do not say themselves.
 void add_read_options(CLI::App& app, ReadOptions& options);
 
 /// "Example:" and the lines, indented, for the end of a command's help.

@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "cli/text.h"
 #include "reprise/error.h"
+#include "reprise/query/take_reading.h"
 
 namespace reprise::cli {
 namespace {
@@ -16,12 +17,16 @@ constexpr double longest_time = 1e9;
 constexpr double furthest_mm = 1e9;
 constexpr std::uint64_t most_results = 1'000'000'000;
 
-/// A file, or stdin: a BVH, or an AMC where its ASF is given.
-Take read_example(const std::filesystem::path& path, const ReadOptions& options) {
-  if (path != "-") return read_motion_file(path, options);
+/// A file, or stdin: a BVH, or an AMC where its ASF is given. It is read as the archive's takes of
+/// the same skeleton are.
+Take read_example(const std::filesystem::path& path, const ReadOptions& options,
+                  const std::filesystem::path& archive) {
   std::optional<std::filesystem::path> asf;
   if (!options.asf.empty()) asf = options.asf.front();
-  return read_motion_from_stdin(asf, options);
+  Take take =
+      path == "-" ? read_motion_from_stdin(asf, options) : read_motion_file(path, options);
+  read_as_stored(take, options, archive);
+  return take;
 }
 
 std::string results_table(const std::vector<SearchResult>& results, bool bold) {
@@ -102,10 +107,11 @@ void SearchCommand::check() {
     throw Error(ErrorCode::usage, "--from must be before --to");
   }
   const bool reads =
-      !read_.asf.empty() || read_.bvh_millimetres_per_unit || read_.frame_rate || read_.partial;
+      !read_.asf.empty() || read_.bvh_millimetres_per_unit || read_.up || read_.frame_rate ||
+      read_.partial;
   if (!id_.empty() && reads) {
     throw Error(ErrorCode::usage,
-                "--asf, --unit-mm, --fps and --partial are for an example from a FILE");
+                "--asf, --unit-mm, --up, --fps and --partial are for an example from a FILE");
   }
   if (like_ == "-" && read_.asf.size() > 1) {
     throw Error(ErrorCode::usage, "stdin has no name to choose a skeleton by: give one --asf");
@@ -118,7 +124,7 @@ void SearchCommand::check() {
 ExitCode SearchCommand::run(Console& console) {
   if (!joint_map_.empty()) setup_.joint_map = read_joint_map(joint_map_);
   std::optional<Take> example;
-  if (!like_.empty()) example = read_example(like_, read_);
+  if (!like_.empty()) example = read_example(like_, read_, archive_);
   std::optional<Archive::Selection> selection;
   {
     const Archive archive(archive_);

@@ -30,7 +30,11 @@ double turn_of(const PositionMatrix& places, const BodyMatch& match) {
 
 Figure figure_at(const Take& take, double seconds, const BodyMatch& match) {
   const long frame = std::clamp(std::lround(seconds * take.frame_rate), 0L, take.frames() - 1);
-  const PositionMatrix places = joint_positions(*take.skeleton, take.channels.middleRows(frame, 1));
+  PositionMatrix places = joint_positions(*take.skeleton, take.channels.middleRows(frame, 1));
+  const Eigen::Matrix3d to_y = turn_to_y(take.skeleton->up);
+  for (long j = 0; j < places.cols() / 3; ++j) {
+    places.block<1, 3>(0, 3 * j) = (to_y * places.block<1, 3>(0, 3 * j).transpose()).transpose();
+  }
   const Eigen::Matrix3d turn = axis_rotation(1, turn_of(places, match));
   Figure figure;
   for (long j = 0; j < places.cols() / 3; ++j) {

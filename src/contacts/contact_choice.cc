@@ -37,7 +37,7 @@ TakeContacts choose_contacts(const Skeleton& skeleton, const std::vector<Leg>& l
                              const ChannelMatrix& decoded) {
   constexpr int in_between = 1;
   constexpr int tightest = (1 << TakeContacts::hold_bits) - 1;
-  TakeContacts contacts{find_contacts(legs, source, frame_rate), 0};
+  TakeContacts contacts{find_contacts(legs, source, frame_rate, skeleton.up), 0};
   if (contacts.intervals.empty()) return {};
   const Outcome plain = outcome_of(skeleton, frame_rate, source, decoded);
   if (slides_less(plain.skate, Constants::most_skate_unheld)) return {};

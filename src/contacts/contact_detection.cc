@@ -4,21 +4,21 @@
 #include <cmath>
 
 #include "model/foot_contact.h"
+#include "model/up_direction.h"
 
 namespace reprise {
 namespace {
 
 using Eigen::Index;
 
-constexpr int up_axis = 1;
-
-double floor_height(const std::vector<Leg>& legs, const PositionMatrix& positions) {
+double floor_height(const std::vector<Leg>& legs, const PositionMatrix& positions,
+                    const UpDirection& up) {
   std::vector<double> heights;
   for (const Leg& leg : legs) {
     for (const std::vector<int>& point : leg.points) {
       for (const int joint : point) {
         for (Index f = 0; f < positions.rows(); ++f) {
-          heights.push_back(positions(f, 3 * joint + up_axis));
+          heights.push_back(up.height(positions, f, joint));
         }
       }
     }
@@ -30,26 +30,19 @@ double floor_height(const std::vector<Leg>& legs, const PositionMatrix& position
   return heights[rank];
 }
 
-double horizontal_speed(const PositionMatrix& positions, int joint, Index from, Index to,
-                        double rate) {
-  const double x = positions(to, 3 * joint) - positions(from, 3 * joint);
-  const double z = positions(to, 3 * joint + 2) - positions(from, 3 * joint + 2);
-  return std::hypot(x, z) * rate / static_cast<double>(to - from);
-}
-
 /// Whether any joint of a point stands, frame by frame. The frames that a speed is measured over
 /// stand with it: what is measured there is what should not move.
 std::vector<bool> standing_frames(const std::vector<int>& point, const PositionMatrix& positions,
-                                  double rate, double floor) {
+                                  double rate, double floor, const UpDirection& up) {
   const Index frames = positions.rows();
   const Index h = std::max<Index>(1, std::lrint(FootContact::half_window_s * rate));
   std::vector<bool> stands(static_cast<std::size_t>(frames), false);
   for (const int joint : point) {
     for (Index f = h; f + h < frames; ++f) {
-      if (positions(f, 3 * joint + up_axis) >= floor + FootContact::height_mm) continue;
-      if (horizontal_speed(positions, joint, f - h, f + h, rate) >= FootContact::speed_mm_s) {
-        continue;
-      }
+      if (up.height(positions, f, joint) >= floor + FootContact::height_mm) continue;
+      const double speed =
+          up.step(positions, joint, f - h, f + h) * rate / static_cast<double>(2 * h);
+      if (speed >= FootContact::speed_mm_s) continue;
       std::fill(stands.begin() + (f - h), stands.begin() + (f + h + 1), true);
     }
   }
@@ -85,14 +78,16 @@ long contact_unit(double frame_rate) {
 }
 
 std::vector<ContactInterval> find_contacts(const std::vector<Leg>& legs,
-                                           const PositionMatrix& positions, double frame_rate) {
+                                           const PositionMatrix& positions, double frame_rate,
+                                           UpAxis up_axis) {
   std::vector<ContactInterval> contacts;
   if (legs.empty() || positions.rows() == 0) return contacts;
-  const double floor = floor_height(legs, positions);
+  const UpDirection up(up_axis);
+  const double floor = floor_height(legs, positions, up);
   int index = 0;
   for (const Leg& leg : legs) {
     for (const std::vector<int>& point : leg.points) {
-      const auto stands = standing_frames(point, positions, frame_rate, floor);
+      const auto stands = standing_frames(point, positions, frame_rate, floor, up);
       const auto found = intervals_of(index++, stands, contact_unit(frame_rate));
       contacts.insert(contacts.end(), found.begin(), found.end());
     }

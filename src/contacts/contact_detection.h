@@ -40,10 +40,12 @@ struct TakeContacts {
 /// Frames a unit of time, at least 1.
 long contact_unit(double frame_rate);
 
-/// Contacts of a take from its positions (frames x 3*joints, mm), by point and then by time; those
+/// Contacts of a take from its positions (frames x 3*joints, mm; heights along `up_axis`), by point
+/// and then by time; those
 /// of a point do not touch each other. Both ends are multiples of contact_unit, but for the end of
 /// the take.
 std::vector<ContactInterval> find_contacts(const std::vector<Leg>& legs,
-                                           const PositionMatrix& positions, double frame_rate);
+                                           const PositionMatrix& positions, double frame_rate,
+                                           UpAxis up_axis);
 
 }  // namespace reprise

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/up_direction.h"
 #include "reprise/model/kinematics.h"
 #include "reprise/model/measure.h"
 
 namespace reprise {
 namespace {
-
-constexpr int up_axis = 1;
 
 std::vector<bool> named_feet(const Skeleton& skeleton) {
   std::vector<bool> feet;
@@ -25,8 +24,9 @@ std::vector<bool> lowest_ends(const Skeleton& skeleton) {
   }
   const PositionMatrix rest =
       joint_positions(skeleton, ChannelMatrix::Zero(1, skeleton.channel_count));
+  const UpDirection up(skeleton.up);
   const auto height = [&](std::size_t j) {
-    return rest(0, 3 * static_cast<Eigen::Index>(j) + up_axis);
+    return up.height(rest, 0, static_cast<Eigen::Index>(j));
   };
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t j = 0; j < count; ++j) {

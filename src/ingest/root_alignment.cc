@@ -27,18 +27,10 @@ JointFrame frame_above(const Skeleton& skeleton, int root_joint, std::span<const
 
 }  // namespace
 
-Matrix3d home_orientation(int up_axis) {
-  const int axis = up_axis % 3;
-  const double sign = up_axis < 3 ? 1 : -1;
-  Matrix3d turn;
-  if (axis == 0) {
-    turn << 0, -sign, 0, sign, 0, 0, 0, 0, 1;
-  } else if (axis == 1) {
-    turn << sign, 0, 0, 0, sign, 0, 0, 0, 1;
-  } else {
-    turn << 1, 0, 0, 0, 0, sign, 0, -sign, 0;
-  }
-  return turn;
+Matrix3d home_orientation(int up_axis) { return turn_to_y(static_cast<UpAxis>(up_axis)); }
+
+Matrix3d from_home_orientation(int up_axis, UpAxis world_up) {
+  return (home_orientation(up_axis) * turn_to_y(world_up)).transpose();
 }
 
 double heading_of(const Matrix3d& rotation) {
@@ -57,14 +49,15 @@ AlignedRoot align_root(const MarkerLayout& layout, const Take& take) {
   track.heading.resize(count);
   std::vector<JointFrame> frames(skeleton.joints.size());
   std::vector<Matrix3d> world(count);
-  const Matrix3d from_home = home_orientation(layout.choices.up_axis).transpose();
+  const Matrix3d to_y = turn_to_y(skeleton.up);
+  const Matrix3d from_home = from_home_orientation(layout.choices.up_axis, skeleton.up);
   for (long f = 0; f < count; ++f) {
     forward_kinematics(skeleton, {take.channels.row(f).data(), std::size_t(skeleton.channel_count)},
                        frames);
     const JointFrame& root = frames[layout.choices.root_joint];
-    world[f] = root.rotation;
-    track.place.row(f) = root.position.transpose();
-    const Quaterniond q(Matrix3d(root.rotation * from_home));
+    world[f] = to_y * root.rotation;
+    track.place.row(f) = (to_y * root.position).transpose();
+    const Quaterniond q(Matrix3d(world[f] * from_home));
     track.tumbles |= std::hypot(q.y(), q.w()) < AlignmentConstants::least_upright_cosine;
   }
   if (track.tumbles) {
@@ -98,9 +91,12 @@ Matrix3d world_orientation(const RootTrack& track, long frame, const Matrix3d& a
 }
 
 void write_root_channels(const MarkerLayout& layout, const Skeleton& skeleton,
-                         const Vector3d& place, const Matrix3d& world, std::span<double> channels,
-                         std::array<double, 3>& previous) {
+                         const Vector3d& place_y_up, const Matrix3d& world_y_up,
+                         std::span<double> channels, std::array<double, 3>& previous) {
   assert(layout.root_aligned);
+  const Matrix3d from_y = turn_to_y(skeleton.up).transpose();
+  const Vector3d place = from_y * place_y_up;
+  const Matrix3d world = from_y * world_y_up;
   const Joint& root = skeleton.joints[layout.choices.root_joint];
   const JointFrame above = frame_above(skeleton, layout.choices.root_joint, channels);
   const Matrix3d local = root.axis.transpose() * above.rotation.transpose() * world * root.axis;

@@ -17,7 +17,7 @@ struct AlignmentConstants {
   static constexpr double least_upright_cosine = 0.64;  // tilts beyond 100 degrees
 };
 
-/// The motion of the root joint through the world.
+/// The motion of the root joint through the world, which is turned so that Y points up.
 struct RootTrack {
   bool tumbles = false;                            ///< all six degrees of freedom are taken out
   Eigen::Matrix<double, Eigen::Dynamic, 3> place;  ///< frames x 3, mm
@@ -30,6 +30,11 @@ struct RootTrack {
 /// whatever its axes are.
 Eigen::Matrix3d home_orientation(int up_axis);
 
+/// What brings the orientation of a root joint that faces ahead, in a world that is turned so that
+/// Y points up (turn_to_y), to one without a heading. The root's axes are turned with the world's,
+/// as exporters do it: `up_axis` is the same for a body written with another axis up.
+Eigen::Matrix3d from_home_orientation(int up_axis, UpAxis world_up);
+
 /// Rotation about the vertical (Y) that is in `rotation`: the twist of its swing-twist
 /// decomposition.
 double heading_of(const Eigen::Matrix3d& rotation);
@@ -41,16 +46,17 @@ struct AlignedRoot {
 };
 AlignedRoot align_root(const MarkerLayout& layout, const Take& take);
 
-/// The world orientation of the root joint of one frame, from the track and the aligned
+/// The world orientation of the root joint of one frame, Y up, from the track and the aligned
 /// orientation.
 Eigen::Matrix3d world_orientation(const RootTrack& track, long frame,
                                   const Eigen::Matrix3d& aligned);
 
-/// Writes the channels of the root joint so that it is at `place` (mm) with orientation `world`.
+/// Writes the channels of the root joint so that it is at `place_y_up` (mm) with orientation
+/// `world_y_up`, once the world is turned back so that the skeleton's own axis points up.
 /// The channels of the joints above it are there already; `previous` are the root's angles of the
 /// frame before (radians, outermost first), which are brought up to date.
 void write_root_channels(const MarkerLayout& layout, const Skeleton& skeleton,
-                         const Eigen::Vector3d& place, const Eigen::Matrix3d& world,
+                         const Eigen::Vector3d& place_y_up, const Eigen::Matrix3d& world_y_up,
                          std::span<double> channels, std::array<double, 3>& previous);
 
 }  // namespace reprise

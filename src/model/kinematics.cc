@@ -46,6 +46,35 @@ Matrix3d axis_rotation(int axis, double radians) {
   return rotation;
 }
 
+Matrix3d turn_to_y(UpAxis axis) {
+  const double sign = static_cast<int>(axis) < 3 ? 1 : -1;
+  Matrix3d turn;
+  switch (static_cast<int>(axis) % 3) {
+    case 0:
+      turn << 0, -sign, 0, sign, 0, 0, 0, 0, 1;
+      break;
+    case 1:
+      turn << sign, 0, 0, 0, sign, 0, 0, 0, 1;
+      break;
+    default:
+      turn << 1, 0, 0, 0, 0, sign, 0, -sign, 0;
+  }
+  return turn;
+}
+
+ChannelMatrix rest_channels(const Skeleton& skeleton) {
+  ChannelMatrix channels = ChannelMatrix::Zero(1, skeleton.channel_count);
+  if (skeleton.format != MotionFormat::bvh) return channels;
+  for (const Joint& joint : skeleton.joints) {
+    for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+      if (!is_position(joint.channels[c])) continue;
+      channels(0, joint.first_channel + static_cast<Eigen::Index>(c)) =
+          joint.offset[axis_of(joint.channels[c])];
+    }
+  }
+  return channels;
+}
+
 Matrix3d local_rotation(const Joint& joint, std::span<const double> channels) {
   Matrix3d rotation = Matrix3d::Identity();
   for (std::size_t k = 0; k < joint.rotation_order.size(); ++k) {

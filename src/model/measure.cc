@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/foot_contact.h"
+#include "model/up_direction.h"
 #include "reprise/error.h"
 
 namespace reprise {
@@ -13,7 +14,6 @@ using Eigen::Index;
 
 /// Of a take that foot skate is measured of.
 constexpr Index least_frames = 8;
-constexpr int up_axis = 1;
 constexpr double rounding = 1e-12;
 
 /// The p-th percentile of sorted numbers, between neighbours in a straight line.
@@ -34,10 +34,9 @@ bool names_foot(std::string lower) {
 }
 
 /// Horizontal speed (mm/s) of a joint over 2h frames around frame f.
-double horizontal_speed(const PositionMatrix& positions, int joint, Index f, Index h, double rate) {
-  const double x = positions(f + h, 3 * joint) - positions(f - h, 3 * joint);
-  const double z = positions(f + h, 3 * joint + 2) - positions(f - h, 3 * joint + 2);
-  return std::hypot(x, z) * rate / (2.0 * static_cast<double>(h));
+double horizontal_speed(const UpDirection& up, const PositionMatrix& positions, int joint, Index f,
+                        Index h, double rate) {
+  return up.step(positions, joint, f - h, f + h) * rate / (2.0 * static_cast<double>(h));
 }
 
 double d_percent(const PositionMatrix& original, const PositionMatrix& decoded, Index frames) {
@@ -118,9 +117,10 @@ std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatr
   if (feet.empty() || frames < least_frames) return std::nullopt;
   // Halves go to the even number.
   const Index h = std::max<Index>(1, std::lrint(FootContact::half_window_s * frame_rate));
+  const UpDirection up(skeleton.up);
   std::vector<double> heights;
   for (const int joint : feet) {
-    for (Index f = 0; f < frames; ++f) heights.push_back(original(f, 3 * joint + up_axis));
+    for (Index f = 0; f < frames; ++f) heights.push_back(up.height(original, f, joint));
   }
   std::sort(heights.begin(), heights.end());
   const double floor = percentile(heights, FootContact::floor_percentile);
@@ -128,11 +128,11 @@ std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatr
   long contacts = 0;
   for (const int joint : feet) {
     for (Index f = h; f + h < frames; ++f) {
-      const double speed = horizontal_speed(original, joint, f, h, frame_rate);
-      const bool touches = original(f, 3 * joint + up_axis) < floor + FootContact::height_mm;
+      const double speed = horizontal_speed(up, original, joint, f, h, frame_rate);
+      const bool touches = up.height(original, f, joint) < floor + FootContact::height_mm;
       if (!touches || speed >= FootContact::speed_mm_s) continue;
       in_original += speed;
-      in_decoded += horizontal_speed(decoded, joint, f, h, frame_rate);
+      in_decoded += horizontal_speed(up, decoded, joint, f, h, frame_rate);
       ++contacts;
     }
   }

@@ -1,7 +1,13 @@
 #include "reprise/model/skeleton.h"
 
+#include <algorithm>
+#include <array>
+
 namespace reprise {
 namespace {
+
+/// In the order of UpAxis.
+constexpr std::array<std::string_view, 6> up_axis_names = {"x", "y", "z", "-x", "-y", "-z"};
 
 void append_number(std::string& bytes, std::int64_t value) {
   for (int byte = 0; byte < 8; ++byte)
@@ -14,6 +20,16 @@ void append_text(std::string& bytes, const std::string& text) {
 }
 
 }  // namespace
+
+std::string_view up_axis_name(UpAxis up) { return up_axis_names[static_cast<std::size_t>(up)]; }
+
+std::optional<UpAxis> find_up_axis(std::string_view name) {
+  std::string lower(name);
+  for (char& c : lower) c = c >= 'X' && c <= 'Z' ? static_cast<char>(c - 'X' + 'x') : c;
+  const auto found = std::ranges::find(up_axis_names, lower);
+  if (found == up_axis_names.end()) return std::nullopt;
+  return static_cast<UpAxis>(found - up_axis_names.begin());
+}
 
 std::string structure_bytes(const Skeleton& skeleton) {
   std::string bytes;

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "caches hold numbers as they are");
 
-constexpr std::string_view magic = "RPRSFEA1";  // ends in the version
+constexpr std::string_view magic = "RPRSFEA2";  // ends in the version
 constexpr std::size_t checksum_bytes = 8;
 
 std::uint64_t checksum(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }

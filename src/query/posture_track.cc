@@ -94,10 +94,14 @@ MeasuredMotion measure(const Take& take, const MeasuredBody& body) {
   MeasuredMotion motion;
   motion.rate = take.frame_rate / static_cast<double>(stride);
   std::vector<JointFrame> joints(take.skeleton->joints.size());
+  const Eigen::Matrix3d to_y = turn_to_y(take.skeleton->up);
   for (long f = 0; f < take.frames(); f += stride) {
     forward_kinematics(
         *take.skeleton,
         {take.channels.row(f).data(), static_cast<std::size_t>(take.channels.cols())}, joints);
+    for (JointFrame& joint : joints) {
+      joint = {to_y * joint.rotation * to_y.transpose(), to_y * joint.position};
+    }
     measure_frame(body, joints, motion);
   }
   motion.leg /= static_cast<double>(motion.frames());

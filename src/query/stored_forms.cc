@@ -103,6 +103,9 @@ std::shared_ptr<const Skeleton> skeleton_of(const ProportionsRecord& record, Mot
             ? read_bvh_skeleton(record.source_text, where, record.millimetres_per_unit)
             : read_asf(record.source_text, where, amc_has_all_turns(amc_header(record.layout))));
     skeleton->asf_name = record.asf_name;
+    skeleton->up = record.up;
+    skeleton->up_assumed = record.up_assumed;
+    skeleton->unit_assumed = record.unit_assumed;
     return skeleton;
   } catch (const Error& error) {
     throw_damaged(error.reason());
@@ -125,6 +128,9 @@ ProportionsRecord proportions_record(const Skeleton& skeleton, const TakeLayout&
                                      double frame_rate, bool frame_rate_assumed) {
   ProportionsRecord record;
   record.millimetres_per_unit = skeleton.millimetres_per_unit;
+  record.up = skeleton.up;
+  record.up_assumed = skeleton.up_assumed;
+  record.unit_assumed = skeleton.unit_assumed;
   record.frame_rate = frame_rate;
   record.frame_rate_assumed = frame_rate_assumed;
   record.asf_name = skeleton.asf_name;

@@ -48,12 +48,15 @@ Eigen::RowVectorXf posture_of_frame(const Take& take, const RootAxis& root,
       skeleton, {take.channels.row(frame).data(), static_cast<std::size_t>(skeleton.channel_count)},
       joints);
   const JointFrame& root_frame = joints[static_cast<std::size_t>(root.joint)];
-  const Eigen::Matrix3d unturned = axis_rotation(1, -heading_of(root_frame.rotation * from_home));
-  const Eigen::Vector3d ground(root_frame.position.x(), 0, root_frame.position.z());
+  const Eigen::Matrix3d to_y = turn_to_y(skeleton.up);
+  const Eigen::Matrix3d unturned =
+      axis_rotation(1, -heading_of(to_y * root_frame.rotation * from_home));
+  const Eigen::Vector3d place = to_y * root_frame.position;
+  const Eigen::Vector3d ground(place.x(), 0, place.z());
   Eigen::RowVectorXf posture(3 * static_cast<Eigen::Index>(moving.size()));
   for (std::size_t j = 0; j < moving.size(); ++j) {
     posture.segment<3>(3 * static_cast<Eigen::Index>(j)) =
-        (unturned * (joints[moving[j]].position - ground)).transpose().cast<float>();
+        (unturned * (to_y * joints[moving[j]].position - ground)).transpose().cast<float>();
   }
   return posture;
 }
@@ -69,7 +72,7 @@ PostureMatrix aligned_postures(const Take& take, const RootAxis& root, double ra
   const double step = take.frame_rate / rate;
   const auto samples =
       static_cast<Eigen::Index>(std::floor(static_cast<double>(frames - 1) / step + rounding)) + 1;
-  const Eigen::Matrix3d from_home = home_orientation(root.up_axis).transpose();
+  const Eigen::Matrix3d from_home = from_home_orientation(root.up_axis, take.skeleton->up);
   std::vector<JointFrame> joints(take.skeleton->joints.size());
   PostureMatrix postures(samples, coordinates);
   for (Eigen::Index s = 0; s < samples; ++s) {

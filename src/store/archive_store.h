@@ -44,8 +44,11 @@ struct ProportionsRecord {
   std::int64_t skeleton = 0;
   Digest identity{};  ///< of everything below; filled in by the store
   double millimetres_per_unit = 10;
+  UpAxis up = UpAxis::y;
   double frame_rate = 0;
   bool frame_rate_assumed = false;
+  bool unit_assumed = false;
+  bool up_assumed = false;
   std::string asf_name;
   Bytes layout;  ///< opaque here
   std::string source_text;
@@ -180,6 +183,8 @@ class ArchiveStore {
   /// The first proportions of a skeleton: those that its spaces are made for. They stay while it
   /// stays.
   ProportionsRecord reference_proportions(std::int64_t skeleton) const;
+  /// Ids of all proportions of a skeleton, ascending.
+  std::vector<std::int64_t> proportions_of_skeleton(std::int64_t skeleton) const;
   SpaceRecord space(std::int64_t id) const;
   /// The spaces that a space extends, the first one first, then itself; all of one skeleton.
   SpaceChain space_chain(std::int64_t id) const;

@@ -71,7 +71,8 @@ std::optional<std::int64_t> ArchiveStore::find_proportions(const ProportionsReco
 ProportionsRecord ArchiveStore::proportions(std::int64_t id) const {
   const std::string what = "the proportions " + std::to_string(id);
   Statement row = impl_->prepare(
-      "SELECT skeleton, unit_mm, frame_rate, assumed, asf_name, layout, text, identity, digest, "
+      "SELECT skeleton, unit_mm, up, frame_rate, assumed, asf_name, layout, text, identity, "
+      "digest, "
       "(SELECT min(id) FROM proportions AS first WHERE first.skeleton=proportions.skeleton) "
       "FROM proportions WHERE id=?");
   row.bind(id);
@@ -80,8 +81,14 @@ ProportionsRecord ArchiveStore::proportions(std::int64_t id) const {
   record.id = id;
   record.skeleton = row.integer();
   record.millimetres_per_unit = row.real();
+  const std::optional<UpAxis> up = up_of_row(row.integer());
+  if (!up) throw_damaged(what);
+  record.up = *up;
   record.frame_rate = row.real();
-  record.frame_rate_assumed = row.integer() != 0;
+  const std::int64_t assumed = row.integer();
+  record.frame_rate_assumed = (assumed & assumed_frame_rate) != 0;
+  record.unit_assumed = (assumed & assumed_unit) != 0;
+  record.up_assumed = (assumed & assumed_up) != 0;
   record.asf_name = row.text();
   record.layout = decompress(row.bytes(), most_text);
   const Bytes frame = row.bytes();
@@ -138,6 +145,14 @@ SpaceRecord ArchiveStore::space(std::int64_t id) const {
 }
 
 Digest ArchiveStore::digest_of_space(std::int64_t id) const { return space_chain(id).digest; }
+
+std::vector<std::int64_t> ArchiveStore::proportions_of_skeleton(std::int64_t skeleton) const {
+  Statement row = impl_->prepare("SELECT id FROM proportions WHERE skeleton=? ORDER BY id");
+  row.bind(skeleton);
+  std::vector<std::int64_t> ids;
+  while (row.step()) ids.push_back(row.integer());
+  return ids;
+}
 
 std::vector<std::int64_t> ArchiveStore::spaces_of_skeleton(std::int64_t skeleton) const {
   Statement row = impl_->prepare("SELECT id FROM spaces WHERE skeleton=? ORDER BY id");

@@ -22,6 +22,10 @@ struct SharedFacts {
   std::int64_t skeleton = 0;
   double frame_rate = 0;
   bool frame_rate_assumed = false;
+  double unit_mm = 0;
+  bool unit_assumed = false;
+  UpAxis up = UpAxis::y;
+  bool up_assumed = false;
   MotionFormat format = MotionFormat::bvh;
   std::uint64_t channels = 0;
 };
@@ -29,16 +33,24 @@ using SharedFactsById = std::map<std::int64_t, SharedFacts>;
 
 /// These rows have digests of their own, which are held against what is decoded with them.
 SharedFacts read_shared_facts(const Database& database, std::int64_t proportions) {
-  Statement row(database,
-                "SELECT skeleton, frame_rate, assumed, format, channels FROM proportions JOIN "
-                "skeletons ON skeletons.id=proportions.skeleton WHERE proportions.id=?");
+  Statement row(
+      database,
+      "SELECT skeleton, unit_mm, up, frame_rate, assumed, format, channels FROM proportions JOIN "
+      "skeletons ON skeletons.id=proportions.skeleton WHERE proportions.id=?");
   row.bind(proportions);
   if (!row.step()) throw_damaged("the proportions " + std::to_string(proportions));
   SharedFacts facts;
   facts.skeleton = row.integer();
+  facts.unit_mm = row.real();
+  const std::optional<UpAxis> up = up_of_row(row.integer());
+  if (!up) throw_damaged("an axis that points up");
+  facts.up = *up;
   facts.frame_rate = row.real();
   if (!is_frame_rate(facts.frame_rate)) throw_damaged("a frame rate");
-  facts.frame_rate_assumed = row.integer() != 0;
+  const std::int64_t assumed = row.integer();
+  facts.frame_rate_assumed = (assumed & assumed_frame_rate) != 0;
+  facts.unit_assumed = (assumed & assumed_unit) != 0;
+  facts.up_assumed = (assumed & assumed_up) != 0;
   facts.format = static_cast<MotionFormat>(row.integer());
   facts.channels = static_cast<std::uint64_t>(row.integer());
   return facts;
@@ -58,6 +70,10 @@ TakeRecord whole_record(const Database& database, const StoredTake& stored,
   info.skeleton = facts.skeleton;
   info.frame_rate = facts.frame_rate;
   info.frame_rate_assumed = facts.frame_rate_assumed;
+  info.unit_mm = facts.unit_mm;
+  info.unit_assumed = facts.unit_assumed;
+  info.up = facts.up;
+  info.up_assumed = facts.up_assumed;
   info.format = facts.format;
   info.raw_bytes = 4 * facts.channels * static_cast<std::uint64_t>(info.frames);
   return record;

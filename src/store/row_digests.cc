@@ -49,11 +49,22 @@ ShortDigest row_digest(const SkeletonRecord& record) {
   return shortened(hasher.finish());
 }
 
+std::int64_t assumed_bits(const ProportionsRecord& record) {
+  return (record.frame_rate_assumed ? assumed_frame_rate : 0) |
+         (record.unit_assumed ? assumed_unit : 0) | (record.up_assumed ? assumed_up : 0);
+}
+
+std::optional<UpAxis> up_of_row(std::int64_t value) {
+  if (value < 0 || value > static_cast<int>(UpAxis::minus_z)) return std::nullopt;
+  return static_cast<UpAxis>(value);
+}
+
 Digest proportions_identity(const ProportionsRecord& record) {
   Hasher hasher;
   hasher.add_real(record.millimetres_per_unit);
+  hasher.add_number(static_cast<int>(record.up));
   hasher.add_real(record.frame_rate);
-  hasher.add_number(record.frame_rate_assumed);
+  hasher.add_number(assumed_bits(record));
   hasher.add_text(record.asf_name);
   hasher.add_bytes(record.layout);
   hasher.add_text(record.source_text);

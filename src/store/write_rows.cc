@@ -72,14 +72,15 @@ std::int64_t ArchiveStore::add_proportions(const ProportionsRecord& record) {
   Bytes text = compress(bytes_of(record.source_text), true, bytes_of(prefix));
   impl_
       ->prepare(
-          "INSERT INTO proportions(skeleton, identity, unit_mm, frame_rate, assumed, asf_name, "
+          "INSERT INTO proportions(skeleton, identity, unit_mm, up, frame_rate, assumed, asf_name, "
           "layout, text, "
-          "digest) VALUES(?,?,?,?,?,?,?,?,?)")
+          "digest) VALUES(?,?,?,?,?,?,?,?,?,?)")
       .bind(record.skeleton)
       .bind(identity)
       .bind(record.millimetres_per_unit)
+      .bind(std::int64_t{static_cast<int>(record.up)})
       .bind(record.frame_rate)
-      .bind(std::int64_t{record.frame_rate_assumed})
+      .bind(assumed_bits(record))
       .bind(record.asf_name)
       .bind(compress(record.layout, true))
       .bind(text)

@@ -163,7 +163,8 @@ TEST_F(IngestTest, AnotherUnitOrFrameRateIsToldOrReplaces) {
   make_library("amc");
   const std::string name = take_names().front();
   const Outcome told = reprise({"ingest", "lib.rpz", "takes", "--fps", "60"});
-  EXPECT_NE(told.err.find("4 takes stored with another unit or frame rate"), std::string::npos)
+  EXPECT_NE(told.err.find("4 takes stored with another unit, up axis or frame rate"),
+            std::string::npos)
       << told.err;
   EXPECT_EQ(document({"info", "lib.rpz", name}).at("take").at("frame_rate"), 120.0);
   EXPECT_EQ(document({"ingest", "lib.rpz", "takes", "--fps", "60", "--replace"}).at("added").size(),

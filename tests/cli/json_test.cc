@@ -31,6 +31,8 @@ const json take_shape = {{"id", "string"},         {"name", "string"},
                          {"subject", "string"},    {"format", "string"},
                          {"frames", "integer"},    {"frame_rate", "number"},
                          {"seconds", "number"},    {"fidelity", "string"},
+                         {"unit_mm", "number"},    {"unit_assumed", "boolean"},
+                         {"up", "string"},         {"up_assumed", "boolean"},
                          {"raw_bytes", "integer"}, {"payload_bytes", "integer"},
                          {"error_mm", error_shape}};
 const json clip_shape = {{"id", "string"},           {"take", "string"},    {"kind", "string"},
@@ -117,7 +119,8 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
       {"other_metadata", "array"}, {"other_reading", "array"}, {"takes_not_found", "array"},
       {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape},
       {"replaced", "array"},       {"same_source", "array"},   {"notes", "array"},
-      {"other_kinds", "counts"},   {"estimate", "null"}};
+      {"other_kinds", "counts"},   {"estimate", "null"},       {"assumed_units", "array"},
+      {"implausible_units", "array"}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);

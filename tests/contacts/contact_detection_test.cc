@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contacts/legged_skeletons.h"
+#include "edited_motion.h"
 
 namespace reprise {
 namespace {
@@ -70,13 +71,40 @@ TEST(Legs, AreNotFoundWhereNothingHangsDown) {
   EXPECT_TRUE(find_legs(*skeletons::chain()).empty());
 }
 
+TEST(ContactDetection, HeightsAreAlongTheAxisThatPointsUp) {
+  const auto skeleton = legs_of_bvh();
+  const std::vector<Leg> legs = find_legs(*skeleton);
+  const PositionMatrix standing = flight(*skeleton, 240, 60, 60, 120);
+  const auto expected = find_contacts(legs, standing, 60, UpAxis::y);
+  ASSERT_FALSE(expected.empty());
+  for (const UpAxis up : edited::every_up) {
+    PositionMatrix turned = standing;
+    for (Eigen::Index j = 0; 3 * j < turned.cols(); ++j) {
+      turned.middleCols<3>(3 * j) = (standing.middleCols<3>(3 * j) * turn_to_y(up)).eval();
+    }
+    EXPECT_EQ(find_contacts(legs, turned, 60, up), expected) << up_axis_name(up);
+  }
+}
+
+TEST(Legs, WithoutNamesHangDownWhicheverAxisPointsUp) {
+  Take rest;
+  rest.skeleton = legs_of_bvh("_a", "_t");
+  rest.channels = ChannelMatrix::Zero(1, rest.skeleton->channel_count);
+  for (const UpAxis up : edited::every_up) {
+    Skeleton skeleton = *edited::turned(rest, up).skeleton;
+    skeleton.up = up;
+    EXPECT_EQ(find_legs(skeleton).size(), 2u) << up_axis_name(up);
+  }
+}
+
 TEST(ContactDetection, FindsWhatStandsAtEveryFrameRate) {
   const auto skeleton = legs_of_bvh();
   const std::vector<Leg> legs = find_legs(*skeleton);
   for (const double rate : {24.0, 30.0, 60.0, 120.0, 480.0}) {
     const auto frames = static_cast<long>(4 * rate);
     const auto first = static_cast<long>(rate), end = static_cast<long>(2 * rate);
-    const auto found = find_contacts(legs, flight(*skeleton, frames, rate, first, end), rate);
+    const auto found =
+        find_contacts(legs, flight(*skeleton, frames, rate, first, end), rate, UpAxis::y);
     ASSERT_EQ(found.size(), 1u) << rate;
     EXPECT_EQ(found[0].point, 1);
     EXPECT_NEAR(static_cast<double>(found[0].first), static_cast<double>(first),
@@ -92,20 +120,20 @@ TEST(ContactDetection, LeavesOutWhatIsFastOrHighOrShort) {
   const Eigen::Index toes = joint_named(*skeleton, "left_toes");
   PositionMatrix fast = flight(*skeleton, 240, 60, 60, 120);
   for (Eigen::Index f = 60; f < 120; ++f) fast(f, 3 * toes) += 3 * static_cast<double>(f);
-  EXPECT_TRUE(find_contacts(legs, fast, 60).empty());
+  EXPECT_TRUE(find_contacts(legs, fast, 60, UpAxis::y).empty());
   PositionMatrix high = flight(*skeleton, 240, 60, 60, 120);
   for (Eigen::Index f = 0; f < 60; ++f) high(f, 3 * toes + 1) = -60;
-  EXPECT_TRUE(find_contacts(legs, high, 60).empty());
-  EXPECT_TRUE(find_contacts(legs, flight(*skeleton, 240, 60, 60, 62), 60).empty());
+  EXPECT_TRUE(find_contacts(legs, high, 60, UpAxis::y).empty());
+  EXPECT_TRUE(find_contacts(legs, flight(*skeleton, 240, 60, 60, 62), 60, UpAxis::y).empty());
 }
 
 TEST(ContactDetection, TakesNothingFromEmptyOrVeryShortTakes) {
   const auto skeleton = legs_of_bvh();
   const std::vector<Leg> legs = find_legs(*skeleton);
-  EXPECT_TRUE(find_contacts({}, flight(*skeleton, 10, 60, 2, 8), 60).empty());
+  EXPECT_TRUE(find_contacts({}, flight(*skeleton, 10, 60, 2, 8), 60, UpAxis::y).empty());
   for (long frames = 0; frames < 4; ++frames) {
     for (const ContactInterval& found :
-         find_contacts(legs, flight(*skeleton, frames, 1e6, 0, frames), 1e6)) {
+         find_contacts(legs, flight(*skeleton, frames, 1e6, 0, frames), 1e6, UpAxis::y)) {
       EXPECT_LE(found.end, frames);
     }
   }

@@ -41,7 +41,7 @@ void edit_take(TakeRecord& take, FuzzInput& input) {
 
 void edit_proportions(Forged& forged, FuzzInput& input) {
   ProportionsRecord& record = forged.proportions;
-  switch (input.choice(6)) {
+  switch (input.choice(7)) {
     case 0:
       edit(record.layout, input);
       break;
@@ -53,6 +53,9 @@ void edit_proportions(Forged& forged, FuzzInput& input) {
       break;
     case 3:
       record.millimetres_per_unit = real(input);
+      break;
+    case 4:
+      record.up = static_cast<UpAxis>(input.number(1));
       break;
     default:
       edit(record.source_text, input);

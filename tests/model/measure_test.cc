@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "edited_motion.h"
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 
@@ -161,6 +162,26 @@ TEST(FootSkate, SpeedsSpanFiftyMilliseconds) {
   const auto skate = foot_skate(skeleton_of({"foot"}), jump, jump, 100);
   ASSERT_TRUE(skate.has_value());
   EXPECT_NEAR(skate->original, 4 * 100.0 / 46, 1e-9);
+}
+
+TEST(FootSkate, IsTheSameWhicheverAxisPointsUp) {
+  for (const MotionFormat format : {MotionFormat::bvh, MotionFormat::asf_amc}) {
+    const Take take = edited::synthetic_takes(1, 4, format)[0];
+    Take other = take;
+    other.channels.array() += 0.3;
+    const auto expected = compare_takes(take, other).foot_skate;
+    ASSERT_TRUE(expected);
+    for (const UpAxis up : edited::every_up) {
+      const auto read = [&](const Take& written) {
+        return edited::with_skeleton(edited::turned(written, up),
+                                     [&](Skeleton& skeleton) { skeleton.up = up; });
+      };
+      const auto skate = compare_takes(read(take), read(other)).foot_skate;
+      ASSERT_TRUE(skate) << up_axis_name(up);
+      EXPECT_NEAR(skate->original, expected->original, 1e-6) << up_axis_name(up);
+      EXPECT_NEAR(skate->decoded, expected->decoded, 1e-6) << up_axis_name(up);
+    }
+  }
 }
 
 }  // namespace

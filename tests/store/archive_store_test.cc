@@ -287,5 +287,41 @@ TEST_F(StoreTest, TakesHaveAFrameRate) {
   }
 }
 
+TEST_F(StoreTest, TakesHaveAnUpAxis) {
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  Ground ground = lay_ground(store);
+  ProportionsRecord proportions = store.proportions(ground.proportions);
+  proportions.up = UpAxis::minus_z;
+  ground.proportions = store.add_proportions(proportions);
+  EXPECT_EQ(store.proportions(ground.proportions).up, UpAxis::minus_z);
+  EXPECT_NO_THROW(add_sample(store, ground, 0));
+  proportions.up = static_cast<UpAxis>(6);
+  ground.proportions = store.add_proportions(proportions);
+  try {
+    store.proportions(ground.proportions);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::damaged);
+  }
+}
+
+TEST_F(StoreTest, WhatIsAssumedIsKeptApart) {
+  ArchiveStore store = ArchiveStore::open_for_writing(path_);
+  store.begin();
+  const Ground ground = lay_ground(store);
+  for (int bits = 0; bits < 8; ++bits) {
+    ProportionsRecord proportions = store.proportions(ground.proportions);
+    proportions.asf_name = "set" + std::to_string(bits);
+    proportions.frame_rate_assumed = (bits & 1) != 0;
+    proportions.unit_assumed = (bits & 2) != 0;
+    proportions.up_assumed = (bits & 4) != 0;
+    const ProportionsRecord back = store.proportions(store.add_proportions(proportions));
+    EXPECT_EQ(back.frame_rate_assumed, proportions.frame_rate_assumed) << bits;
+    EXPECT_EQ(back.unit_assumed, proportions.unit_assumed) << bits;
+    EXPECT_EQ(back.up_assumed, proportions.up_assumed) << bits;
+  }
+}
+
 }  // namespace
 }  // namespace reprise

@@ -30,7 +30,9 @@ struct InputLimits {
 
 /// What the files themselves do not say.
 struct ReadOptions {
-  std::optional<double> bvh_millimetres_per_unit;  ///< else 10, or what a take is stored with
+  /// Else 10, until it is guessed from the body (take_reading.h), or what a take is stored with.
+  std::optional<double> bvh_millimetres_per_unit;
+  std::optional<UpAxis> up;  ///< else Y, until it is found from the motion (take_reading.h)
   /// Before what a file says; else that, and of an AMC that says nothing 120 Hz, recorded as
   /// assumed.
   std::optional<double> frame_rate;

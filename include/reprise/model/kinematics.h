@@ -22,6 +22,13 @@ using PositionMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 /// Rotation about a coordinate axis (0, 1, 2 for X, Y, Z) by an angle in radians.
 Eigen::Matrix3d axis_rotation(int axis, double radians);
 
+/// The rotation that brings an axis to Y: of the world's, what points up.
+Eigen::Matrix3d turn_to_y(UpAxis axis);
+
+/// One frame without rotations, with the position channels of a BVH at the offsets of their joints:
+/// how the skeleton's text says that the body stands.
+ChannelMatrix rest_channels(const Skeleton& skeleton);
+
 /// The product E of a joint's rotation channels (skeleton.h); `channels` is a whole frame.
 Eigen::Matrix3d local_rotation(const Joint& joint, std::span<const double> channels);
 

@@ -90,7 +90,7 @@ bool is_foot_joint(const Joint& joint);
 
 /// Contact of a foot joint: within 50 mm of the floor (5th percentile of the heights of
 /// all foot joints of the original) and slower than 150 mm/s; speeds are central differences over
-/// 50 ms.
+/// 50 ms. Heights are along the axis that the skeleton says points up.
 std::optional<FootSkate> foot_skate(const Skeleton& skeleton, const PositionMatrix& original,
                                     const PositionMatrix& decoded, double frame_rate);
 

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace reprise {
@@ -53,6 +55,15 @@ struct Joint {
   int first_channel = 0;  ///< index of the first of `channels` in a frame
 };
 
+/// The direction of the world's axes that points away from the ground. Persisted in archives: never
+/// change a value.
+enum class UpAxis : std::uint8_t { x = 0, y = 1, z = 2, minus_x = 3, minus_y = 4, minus_z = 5 };
+
+/// "x", "y", "z", "-x", "-y" or "-z".
+std::string_view up_axis_name(UpAxis up);
+/// The axis of such a name, in any case, or none.
+std::optional<UpAxis> find_up_axis(std::string_view name);
+
 /// BVH does not say its unit; centimetres are the most common one.
 constexpr double default_millimetres_per_unit = 10.0;
 
@@ -63,6 +74,9 @@ struct Skeleton {
   std::vector<Joint> joints;
   int channel_count = 0;
   double millimetres_per_unit = default_millimetres_per_unit;
+  UpAxis up = UpAxis::y;
+  bool unit_assumed = false;  ///< neither the file nor the user says the unit
+  bool up_assumed = false;    ///< the user does not say which axis points up; no file does
   /// The text that describes the skeleton, byte for byte: a BVH file up to and without its line
   /// `MOTION`, or the whole ASF file. Parsing it gives this skeleton again.
   std::string source_text;
