@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <vector>
 
 #include "formats/text_lines.h"
@@ -59,6 +60,7 @@ std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) reject(path, "this is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file) reject(path, std::string("the file cannot be opened: ") + std::strerror(errno));
   const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > InputLimits::file_bytes) {

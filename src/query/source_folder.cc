@@ -1,5 +1,7 @@
 #include "query/source_folder.h"
 
+#include <new>
+
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 
@@ -24,6 +26,7 @@ std::string hindrance(const fs::directory_entry& entry) {
   // Links to folders are not followed.
   if (entry.is_symlink(error) || !entry.is_directory(error)) return {};
   const fs::directory_iterator probe(entry.path(), error);
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   return error ? "the folder cannot be read: " + error.message() : std::string();
 }
 
@@ -57,7 +60,7 @@ SourceFolder::SourceFolder(const fs::path& folder, const std::function<void()>& 
     }
   }
   if (error) {
-    throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
+    throw Error(code_of_errno(error.value()), "the folder cannot be read: " + error.message(),
                 {folder.string()});
   }
   for (const auto& [end, files] : by_end) {
