@@ -29,8 +29,6 @@ ErrorCode code_of_errno(int number) {
     case EFBIG:
     case ENOMEM:
     case EAGAIN:  // of threads and processes
-    case EMFILE:
-    case ENFILE:
       return ErrorCode::limit;
     default:
       return ErrorCode::failed;
