@@ -116,6 +116,7 @@ ExitCode run_command_line(int argc, char** argv) {
   // and is told, instead of the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const bool json = asks_for_json(argc, argv);
+  end_where_memory_ends(json);
   try {
     ConsoleOptions options;
     options.json = json;

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <new>
 #include <string_view>
@@ -11,6 +13,9 @@
 
 namespace reprise::cli {
 namespace {
+
+// What ends a process can reach nothing but globals.
+bool json_wanted = false;
 
 std::string error_name(ErrorCode code) {
   switch (code) {
@@ -64,6 +69,21 @@ ExitCode report_out_of_memory(bool json) {
   (void)!::write(STDERR_FILENO, line.data(), line.size());
   if (json) (void)!::write(STDOUT_FILENO, document.data(), document.size());
   return static_cast<int>(ErrorCode::limit);
+}
+
+void end_where_memory_ends(bool json) {
+  json_wanted = json;
+  std::set_terminate([] {
+    if (std::current_exception()) {
+      try {
+        throw;
+      } catch (const std::bad_alloc&) {
+        ::_exit(report_out_of_memory(json_wanted));
+      } catch (...) {
+      }
+    }
+    std::abort();
+  });
 }
 
 ExitCode report(const Error& error, const Console& console) {
