@@ -1,5 +1,7 @@
 // Wherever memory runs out, the command ends with exit code 9, and the archive is whole.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +32,9 @@ std::atomic<long> requests = 0;
 std::atomic<long> first_failure = -1;
 std::atomic<bool> only_one = false;
 
+/// Threads that the system gives from here on; below 0: as many as it has.
+std::atomic<long> threads_left = -1;
+
 /// FLANN does not look at what it gets for its blocks: WindowIndex sees to them beforehand.
 constexpr std::size_t block_of_flann = 8192;
 
@@ -59,6 +64,14 @@ void* realloc(void* block, std::size_t size) {
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   return fails(size) ? nullptr : __libc_memalign(alignment, size);
+}
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*work)(void*),
+                   void* argument) {
+  static const auto real =
+      reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
+  if (threads_left == 0) return EAGAIN;
+  if (threads_left > 0) --threads_left;
+  return real(thread, attributes, work, argument);
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
   *block = fails(size) ? nullptr : __libc_memalign(alignment, size);
@@ -180,6 +193,21 @@ TEST_P(MemoryTest, OfAnExtractionLeavesNoFileInPart) {
         }
         if (code == 0) EXPECT_EQ(files, 2u);
       });
+}
+
+// Results do not depend on the number of threads, nor on whether there are any.
+TEST_P(MemoryTest, OfThreadsChangesNothing) {
+  ASSERT_EQ(run({"ingest", "lib.rpz", "takes", "--jobs", "1"}, -1), 0);
+  const std::string digest = Archive("lib.rpz").info().content_digest;
+  for (const long threads : {0, 1, 2}) {
+    threads_left = threads;
+    EXPECT_EQ(run({"ingest", "few.rpz", "takes", "--jobs", "4"}, -1), 0) << threads;
+    EXPECT_EQ(run({"search", "few.rpz", "--id", "s01_01", "--jobs", "4"}, -1), 0) << threads;
+    EXPECT_EQ(run({"repeats", "few.rpz", "--jobs", "4"}, -1), 0) << threads;
+    threads_left = -1;
+    EXPECT_EQ(Archive("few.rpz").info().content_digest, digest);
+    fs::remove("few.rpz");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Want, MemoryTest, testing::Bool(), [](const auto& info) {
