@@ -60,7 +60,8 @@ int with_limits_told(sqlite3_file* file, int result) {
   if ((result & 0xff) != SQLITE_IOERR) return result;
   int number = 0;
   real(file)->pMethods->xFileControl(real(file), SQLITE_FCNTL_LAST_ERRNO, &number);
-  return code_of_errno(number) == ErrorCode::limit ? SQLITE_FULL : result;
+  if (number == ENOMEM) return SQLITE_IOERR_NOMEM;
+  return number != EAGAIN && code_of_errno(number) == ErrorCode::limit ? SQLITE_FULL : result;
 }
 
 /// A page that changes the file names the journal that the change can be taken back by. What is
@@ -160,7 +161,7 @@ int check_left_journal(sqlite3_file* file) {
 /// Why a file cannot be made, as an errno, or 0. SQLite tries in several ways, and the last one's
 /// errno says nothing.
 int hindrance_of(const char* name) {
-  const int descriptor = ::open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor = ::open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0) return errno;
   ::close(descriptor);
   return 0;
