@@ -21,9 +21,13 @@ enum class ErrorCode : int {
   interrupted = 130,
 };
 
-/// What an errno of the system means: limit where a disk, a quota or the size of a file is at its
-/// limit, else failed.
+/// What an errno of the system means: limit where a disk, a quota, the size of a file, memory or a
+/// number of files or threads is at its limit, else failed.
 ErrorCode code_of_errno(int number);
+
+/// The system's words for an errno. Where there is no room for a file, they say what there is none
+/// of: bytes, or further files; `path` is of that file system.
+std::string reason_of_errno(int number, const std::string& path);
 
 /// Where in a user's file an error was seen. `line` is 1-based; 0 where no line is meant.
 struct SourcePlace {

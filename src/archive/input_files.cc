@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <new>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -35,6 +36,7 @@ std::optional<RejectedInput> hindrance(const fs::directory_entry& entry) {
   }
   if (!entry.is_directory(error)) return std::nullopt;
   const fs::directory_iterator probe(entry.path(), error);
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   if (!error) return std::nullopt;
   return RejectedInput{path, 0, "the folder cannot be read: " + error.message(),
                        "make it readable, or name what is wanted beside it"};
@@ -75,12 +77,14 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path, Inp
   }
   const fs::directory_iterator probe(path, error);
   if (error) {
-    throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
+    throw Error(code_of_errno(error.value()), "the folder cannot be read: " + error.message(),
                 {path.string()});
   }
   fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied,
                                          error);
-  if (error) throw Error(ErrorCode::failed, "the folder cannot be read", {path.string()});
+  if (error) {
+    throw Error(code_of_errno(error.value()), "the folder cannot be read", {path.string()});
+  }
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     pulse();
     if (auto rejected = hindrance(*entry)) inputs.rejected.push_back(std::move(*rejected));
@@ -95,8 +99,8 @@ std::vector<std::pair<fs::path, fs::path>> files_under(const fs::path& path, Inp
   }
   // An error ends the loop.
   if (error) {
-    throw Error(ErrorCode::failed, "the folder cannot be searched to its end: " + error.message(),
-                {path.string()});
+    throw Error(code_of_errno(error.value()),
+                "the folder cannot be searched to its end: " + error.message(), {path.string()});
   }
   return found;
 }
@@ -122,6 +126,7 @@ std::vector<FoundFile> files_of(const std::vector<fs::path>& arguments, InputFil
       pulse();
       std::error_code ignored;
       const fs::path full = fs::weakly_canonical(path, ignored);
+      if (ignored == std::errc::not_enough_memory) throw std::bad_alloc();
       files.push_back({full.empty() ? path : full, fs::is_symlink(path, ignored),
                        -std::distance(relative.begin(), relative.end()), relative, path});
     }

@@ -2,6 +2,7 @@
 
 #include <csv.h>
 
+#include <exception>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -22,18 +23,33 @@ struct CsvRows {
   std::vector<CsvRow> rows;
   CsvRow row;
   std::size_t line = 0;  ///< that is being parsed
+  std::exception_ptr failure;
+
+  /// For what the parser, which knows no exceptions, calls.
+  template <class Work>
+  void keep_failure(const Work& work) {
+    try {
+      if (!failure) work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
 };
 
 extern "C" void end_of_field(void* field, std::size_t size, void* rows) {
   auto* all = static_cast<CsvRows*>(rows);
-  if (all->row.cells.empty()) all->row.line = all->line;
-  all->row.cells.emplace_back(static_cast<const char*>(field), size);
+  all->keep_failure([&] {
+    if (all->row.cells.empty()) all->row.line = all->line;
+    all->row.cells.emplace_back(static_cast<const char*>(field), size);
+  });
 }
 
 extern "C" void end_of_row(int, void* rows) {
   auto* all = static_cast<CsvRows*>(rows);
-  all->rows.push_back(std::move(all->row));
-  all->row = {};
+  all->keep_failure([&] {
+    all->rows.push_back(std::move(all->row));
+    all->row = {};
+  });
 }
 
 /// Hands the text on line by line, so that each row knows its own. False where it is no CSV.
@@ -59,6 +75,7 @@ CsvRows parse_csv(const std::string& text, const std::string& file) {
   const bool no_memory = csv_error(&parser) == CSV_ENOMEM;
   csv_free(&parser);
   if (no_memory) throw std::bad_alloc();
+  if (rows.failure) std::rethrow_exception(rows.failure);
   if (!whole) {
     throw Error(ErrorCode::failed,
                 "the table cannot be read: up to this line a cell has a quote too many or too few",

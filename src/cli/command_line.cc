@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <csignal>
 #include <iostream>
+#include <new>
 #include <string_view>
 
 #include "cli/arguments.h"
@@ -114,17 +115,23 @@ ExitCode run_command_line(int argc, char** argv) {
   // A file that may not grow further is an error of the write then, which leaves the archive whole
   // and is told, instead of the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  ConsoleOptions options;
-  options.json = asks_for_json(argc, argv);
-  const Error interrupted(ErrorCode::interrupted, "interrupted");
-  // Over the progress bar, where there is one.
-  end_when_interrupted(
-      (isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + report_line(interrupted) + "\n",
-      options.json ? text_of(error_document(interrupted)) : std::string());
+  const bool json = asks_for_json(argc, argv);
+  end_where_memory_ends(json);
   try {
-    return dispatch(argc, argv, options);
-  } catch (const std::exception& exception) {
-    return report(as_error(exception), Console(options));
+    ConsoleOptions options;
+    options.json = json;
+    const Error interrupted(ErrorCode::interrupted, "interrupted");
+    // Over the progress bar, where there is one.
+    end_when_interrupted(
+        (isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + report_line(interrupted) + "\n",
+        options.json ? text_of(error_document(interrupted)) : std::string());
+    try {
+      return dispatch(argc, argv, options);
+    } catch (const std::exception& exception) {
+      return report(as_error(exception), Console(options));
+    }
+  } catch (const std::bad_alloc&) {
+    return report_out_of_memory(json);
   }
 }
 

@@ -1,13 +1,21 @@
 #include "cli/error_report.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "cli/text.h"
 
 namespace reprise::cli {
 namespace {
+
+// What ends a process can reach nothing but globals.
+bool json_wanted = false;
 
 std::string error_name(ErrorCode code) {
   switch (code) {
@@ -50,6 +58,33 @@ Json error_document(const Error& error) {
 }
 
 std::string report_line(const Error& error) { return "reprise: " + printable(error.what()); }
+
+ExitCode report_out_of_memory(bool json) {
+  constexpr std::string_view line = "reprise: out of memory\n";
+  constexpr std::string_view document =
+      "{\n  \"error\": {\n    \"code\": 9,\n    \"name\": \"limit\",\n    \"message\": \"out of "
+      "memory\"\n  }\n}\n";
+  static_assert(static_cast<int>(ErrorCode::limit) == 9);
+  // Nobody is left to hear that this could not be written.
+  (void)!::write(STDERR_FILENO, line.data(), line.size());
+  if (json) (void)!::write(STDOUT_FILENO, document.data(), document.size());
+  return static_cast<int>(ErrorCode::limit);
+}
+
+void end_where_memory_ends(bool json) {
+  json_wanted = json;
+  std::set_terminate([] {
+    if (std::current_exception()) {
+      try {
+        throw;
+      } catch (const std::bad_alloc&) {
+        ::_exit(report_out_of_memory(json_wanted));
+      } catch (...) {
+      }
+    }
+    std::abort();
+  });
+}
 
 ExitCode report(const Error& error, const Console& console) {
   console.complaint(report_line(error));

@@ -51,21 +51,6 @@ MotionText motion_text(const Archive& archive, const PlannedExtract& entry,
   return {write_motion(take), take.skeleton};
 }
 
-/// The paths of all motion files, each checked to be inside `folder` and, unless `overwrite`, not
-/// to exist.
-std::vector<fs::path> targets_in(const fs::path& folder, const std::vector<PlannedExtract>& plan,
-                                 bool overwrite) {
-  std::vector<fs::path> targets;
-  for (const PlannedExtract& entry : plan) {
-    targets.push_back(path_inside(folder, entry.file_name));
-    refuse_links_below(folder, entry.file_name);
-    if (!overwrite && fs::exists(fs::symlink_status(targets.back()))) {
-      refuse_existing(targets.back());
-    }
-  }
-  return targets;
-}
-
 }  // namespace
 
 void ExtractCommand::setup(CLI::App& app) {
@@ -117,57 +102,81 @@ void ExtractCommand::check() {
   if (request_.frames && request_.time) refuse("--frames and --time exclude each other");
 }
 
+void ExtractCommand::check_targets(ExtractPlan& plan) const {
+  std::vector<PlannedExtract> kept;
+  for (PlannedExtract& entry : plan.entries) {
+    try {
+      const fs::path target = path_inside(folder_, entry.file_name);
+      std::error_code error;
+      if (!overwrite_ && fs::exists(fs::symlink_status(target, error))) refuse_existing(target);
+      kept.push_back(std::move(entry));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::damaged) throw;
+      plan.damaged.push_back({entry.take.name, error.reason()});
+    }
+  }
+  plan.entries = std::move(kept);
+}
+
 ExitCode ExtractCommand::run(Console& console) {
   const InterruptionGuard guard;
   const Archive archive(archive_);
-  std::vector<Damage> damaged;
-  const std::vector<PlannedExtract> plan = plan_extract(archive, request_, damaged);
+  ExtractPlan plan = plan_extract(archive, request_);
   if (file_ == "-") {
-    console.bytes(motion_text(archive, plan.front(), request_.fidelity).text);
+    console.bytes(motion_text(archive, plan.entries.front(), request_.fidelity).text);
     return exit_done;
   }
-  std::vector<fs::path> targets;
   if (folder_.empty()) {
     refuse_archive(file_, archive_);
-    check_written_ending(file_, plan.front().take);
-    targets.push_back(file_);
+    check_written_ending(file_, plan.entries.front().take);
     if (!overwrite_ && fs::exists(fs::symlink_status(file_))) refuse_existing(file_);
   } else {
-    targets = targets_in(folder_, plan, overwrite_);
+    check_targets(plan);
   }
 
-  const Json entries = write_all(archive, plan, targets, damaged, console);
-  console.document({{"extracted", entries}, {"damaged", to_json(damaged)}});
-  for (const Damage& damage : damaged) {
-    console.complaint(
-        printable(fmt::format("reprise: {}: {}: {}", archive_.string(), damage.id, damage.why)));
+  const Json entries = write_all(archive, plan, console);
+  console.document({{"extracted", entries},
+                    {"damaged", to_json(plan.damaged)},
+                    {"unwritten", to_json(plan.unwritten)}});
+  for (const std::vector<Damage>& list : {plan.damaged, plan.unwritten}) {
+    for (const Damage& entry : list) {
+      console.complaint(
+          printable(fmt::format("reprise: {}: {}: {}", archive_.string(), entry.id, entry.why)));
+    }
   }
-  return damaged.empty() ? exit_done : static_cast<int>(ErrorCode::damaged);
+  if (!plan.damaged.empty()) return static_cast<int>(ErrorCode::damaged);
+  return plan.unwritten.empty() ? exit_done : static_cast<int>(ErrorCode::failed);
 }
 
-Json ExtractCommand::write_all(const Archive& archive, const std::vector<PlannedExtract>& plan,
-                               const std::vector<fs::path>& targets, std::vector<Damage>& damaged,
-                               Console& console) const {
+Json ExtractCommand::write_all(const Archive& archive, ExtractPlan& plan, Console& console) const {
   Json entries = Json::array();
   MotionOutput output(archive_, overwrite_);
   ProgressBar bar("extract", console.progress_terminal());
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  for (std::size_t i = 0; i < plan.entries.size(); ++i) {
+    const PlannedExtract& entry = plan.entries[i];
     InterruptionGuard::check();
-    bar.show({i, plan.size(), plan[i].take.name});
+    bar.show({i, plan.entries.size(), entry.take.name});
     try {
-      const MotionText motion = motion_text(archive, plan[i], request_.fidelity);
-      if (!folder_.empty()) make_folder_of(targets[i]);
-      const std::vector<fs::path> files = output.write(*motion.skeleton, motion.text, targets[i]);
+      const MotionText motion = motion_text(archive, entry, request_.fidelity);
+      const fs::path name = folder_.empty() ? file_ : fs::path(entry.file_name);
+      const OutputFolder folder =
+          folder_.empty() ? OutputFolder::of(file_) : OutputFolder::below(folder_, entry.file_name);
+      const std::vector<fs::path> files =
+          output.write(*motion.skeleton, motion.text, folder, name.filename().string());
       for (const fs::path& file : files) console.detail("wrote " + printable(file.string()));
-      entries.push_back(entry_of(plan[i], files));
+      entries.push_back(entry_of(entry, files));
+    } catch (const FileError& error) {
+      if (folder_.empty()) throw;
+      plan.unwritten.push_back({entry.take.name, error.what()});
     } catch (const Error& error) {
       // Another process has taken it out meanwhile.
       if (error.code() == ErrorCode::not_found && request_.all) continue;
       // What else the archive holds may be whole.
       if (error.code() != ErrorCode::damaged || folder_.empty()) throw;
-      damaged.push_back({plan[i].take.name, error.reason()});
+      plan.damaged.push_back({entry.take.name, error.reason()});
     }
   }
+  output.sync(folder_.empty() ? file_ : folder_);
   return entries;
 }
 

@@ -17,10 +17,12 @@ class ExtractCommand : public Command {
   ExitCode run(Console& console) override;
 
  private:
-  /// What was written. With -d a take that is damaged is added to `damaged`, and the rest goes on.
-  Json write_all(const Archive& archive, const std::vector<PlannedExtract>& plan,
-                 const std::vector<std::filesystem::path>& targets, std::vector<Damage>& damaged,
-                 Console& console) const;
+  /// Takes out of the plan what has no place under the folder. Throws Error (failed) where a file
+  /// is there already and is not to be replaced.
+  void check_targets(ExtractPlan& plan) const;
+  /// What was written. With -d what cannot be read or written of a take is added to the plan's
+  /// lists, and the rest goes on.
+  Json write_all(const Archive& archive, ExtractPlan& plan, Console& console) const;
 
   std::filesystem::path archive_;
   ExtractRequest request_;

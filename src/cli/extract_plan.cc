@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "cli/json_output.h"
@@ -72,22 +73,35 @@ std::string motion_file_name(std::string_view name, MotionFormat format) {
   return name.ends_with(extension) ? std::string(name) : std::string(name) + extension;
 }
 
-std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request,
-                                         std::vector<Damage>& damaged) {
-  std::vector<PlannedExtract> plan;
-  std::map<std::string, PlannedExtract> seen;
-  for (PlannedExtract& entry : plan_all(archive, request, damaged)) {
-    const auto [found, fresh] = seen.emplace(entry.file_name, entry);
-    if (fresh) {
-      plan.push_back(std::move(entry));
+ExtractPlan plan_extract(const Archive& archive, const ExtractRequest& request) {
+  ExtractPlan plan;
+  std::map<std::string, std::vector<PlannedExtract>> by_file;
+  std::vector<std::string> files;  // in the order in which they were asked for
+  for (PlannedExtract& entry : plan_all(archive, request, plan.damaged)) {
+    std::vector<PlannedExtract>& sharing = by_file[entry.file_name];
+    if (sharing.empty()) files.push_back(entry.file_name);
+    const auto same = [&](const PlannedExtract& other) {
+      return other.take.id == entry.take.id && other.frames.begin == entry.frames.begin &&
+             other.frames.end == entry.frames.end;
+    };
+    if (std::ranges::none_of(sharing, same)) sharing.push_back(std::move(entry));
+  }
+  for (const std::string& file : files) {
+    std::vector<PlannedExtract>& sharing = by_file.at(file);
+    if (sharing.size() == 1) {
+      plan.entries.push_back(std::move(sharing.front()));
       continue;
     }
-    const PlannedExtract& other = found->second;
-    const bool same = other.take.id == entry.take.id && other.frames.begin == entry.frames.begin &&
-                      other.frames.end == entry.frames.end;
-    if (!same) {
-      throw Error(ErrorCode::failed, fmt::format("{} and {} would both be written to {}", other.id,
-                                                 entry.id, entry.file_name));
+    if (!request.all) {
+      throw Error(ErrorCode::failed, fmt::format("{} and {} would both be written to {}",
+                                                 sharing[0].id, sharing[1].id, file));
+    }
+    for (const PlannedExtract& entry : sharing) {
+      const PlannedExtract& other = sharing[&entry == &sharing[0] ? 1 : 0];
+      plan.unwritten.push_back(
+          {entry.take.name, fmt::format("'{}' would be written to {}, too; -o writes each of them "
+                                        "to a file of its own",
+                                        other.take.name, file)});
     }
   }
   return plan;

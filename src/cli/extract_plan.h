@@ -29,11 +29,16 @@ struct PlannedExtract {
   std::string file_name;  ///< name of the take or clip with its extension, '/' between folders
 };
 
+struct ExtractPlan {
+  std::vector<PlannedExtract> entries;
+  std::vector<Damage> damaged;    ///< with --all: what cannot be read of the archive
+  std::vector<Damage> unwritten;  ///< with --all: takes that would have one file with another one
+};
+
 /// Throws Error: not_found, usage (fidelity or format that the archive cannot give), failed (frames
-/// that are not there, two different motions with one file name). What is asked for twice is
-/// planned once. With --all, what cannot be read of the archive is added to `damaged`.
-std::vector<PlannedExtract> plan_extract(const Archive& archive, const ExtractRequest& request,
-                                         std::vector<Damage>& damaged);
+/// that are not there; of IDs that were named, two different motions with one file name). What is
+/// asked for twice is planned once.
+ExtractPlan plan_extract(const Archive& archive, const ExtractRequest& request);
 
 /// "walk/01" and bvh: "walk/01.bvh"; a name that has the extension already keeps it.
 std::string motion_file_name(std::string_view name, MotionFormat format);

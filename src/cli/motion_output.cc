@@ -1,6 +1,5 @@
 #include "cli/motion_output.h"
 
-#include "cli/output_file.h"
 #include "reprise/error.h"
 
 namespace fs = std::filesystem;
@@ -20,39 +19,61 @@ std::string file_name_of(const std::string& stem) {
 }  // namespace
 
 std::vector<fs::path> MotionOutput::write(const Skeleton& skeleton, const std::string& text,
-                                          const fs::path& target) {
-  std::vector<fs::path> files{target};
-  refuse_archive(target, archive_);
-  if (skeleton.format == MotionFormat::asf_amc) files.push_back(write_skeleton(skeleton, target));
-  write_file_atomically(target, text, overwrite_);
+                                          const OutputFolder& folder, const std::string& name) {
+  std::vector<fs::path> files{folder.path() / name};
+  folder.refuse_archive(name, archive_);
+  folders_.insert(folder.path());
+  if (skeleton.format == MotionFormat::asf_amc) {
+    files.push_back(write_skeleton(skeleton, folder, name));
+  }
+  folder.write(name, text, overwrite_);
   return files;
 }
 
-fs::path MotionOutput::write_skeleton(const Skeleton& skeleton, const fs::path& motion) {
-  const std::string stem = skeleton.asf_name.empty() ? motion.stem().string() : skeleton.asf_name;
-  fs::path target = path_inside(motion.parent_path(), file_name_of(stem));
+fs::path MotionOutput::write_skeleton(const Skeleton& skeleton, const OutputFolder& folder,
+                                      const std::string& motion) {
+  const std::string stem =
+      skeleton.asf_name.empty() ? fs::path(motion).stem().string() : skeleton.asf_name;
+  fs::path target = path_inside(folder.path(), file_name_of(stem));
   const auto written = written_.find(target.string());
   if (written != written_.end()) {
     if (written->second == skeleton.source_text) return target;
     // Another skeleton of the same name; an ASF with the take's own name is found before any
     // other.
-    target = fs::path(motion).replace_extension(".asf");
+    target = (folder.path() / motion).replace_extension(".asf");
     const auto other = written_.find(target.string());
     if (other != written_.end() && other->second != skeleton.source_text) {
-      throw Error(ErrorCode::failed, "two skeletons of one folder would have this name",
-                  {target.string(), 0}, "extract their takes into different folders");
+      throw FileError(ErrorCode::failed, "two skeletons of one folder would have this name",
+                      {target.string(), 0}, "extract their takes into different folders");
     }
   }
-  if (target == motion) {
-    throw Error(ErrorCode::failed, "the skeleton and the motion would be one file",
-                {target.string(), 0}, "give the motion a name that ends in .amc");
+  const std::string name = target.filename().string();
+  if (name == motion) {
+    throw FileError(ErrorCode::failed, "the skeleton and the motion would be one file",
+                    {target.string(), 0}, "give the motion a name that ends in .amc");
   }
-  refuse_archive(target, archive_);
-  if (!file_has_content(target, skeleton.source_text)) {
-    write_file_atomically(target, skeleton.source_text, overwrite_);
+  folder.refuse_archive(name, archive_);
+  if (!folder.has(name, skeleton.source_text)) {
+    folder.write(name, skeleton.source_text, overwrite_);
   }
   written_[target.string()] = skeleton.source_text;
   return target;
+}
+
+void MotionOutput::sync(const fs::path& top) const {
+  std::set<fs::path> all;
+  const auto full = [](const fs::path& path) {
+    const fs::path normal = fs::absolute(path).lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+  };
+  const fs::path end = full(top).parent_path();
+  for (const fs::path& folder : folders_) {
+    fs::path step = full(folder);
+    while (all.insert(step).second && step != end && step.has_relative_path()) {
+      step = step.parent_path();
+    }
+  }
+  for (const fs::path& folder : all) sync_folder(folder);
 }
 
 }  // namespace reprise::cli

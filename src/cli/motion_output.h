@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "cli/output_file.h"
 #include "reprise/model/skeleton.h"
 
 namespace reprise::cli {
@@ -16,20 +18,25 @@ class MotionOutput {
   MotionOutput(const std::filesystem::path& archive, bool overwrite)
       : archive_(archive), overwrite_(overwrite) {}
 
-  /// Returns the files written, the motion (`text`) first. Throws what write_file_atomically does;
-  /// damaged where the archive names a skeleton in another folder.
+  /// Writes the motion (`text`) as the file `name` of a folder. Returns the files written, the
+  /// motion first. Throws what OutputFolder::write does; damaged where the archive names a skeleton
+  /// in another folder.
   std::vector<std::filesystem::path> write(const Skeleton& skeleton, const std::string& text,
-                                           const std::filesystem::path& target);
+                                           const OutputFolder& folder, const std::string& name);
+  /// Makes what was written last through a loss of power: the folders, and those above them up to
+  /// that of `top`. Throws Error (failed, limit).
+  void sync(const std::filesystem::path& top) const;
 
  private:
   /// Takes of one folder usually share their ASF: it is written once, and stays where it is there
   /// already.
-  std::filesystem::path write_skeleton(const Skeleton& skeleton,
-                                       const std::filesystem::path& motion);
+  std::filesystem::path write_skeleton(const Skeleton& skeleton, const OutputFolder& folder,
+                                       const std::string& motion);
 
   std::filesystem::path archive_;
   bool overwrite_;
   std::map<std::string, std::string> written_;  ///< path of an ASF and its text
+  std::set<std::filesystem::path> folders_;     ///< that were written into
 };
 
 }  // namespace reprise::cli

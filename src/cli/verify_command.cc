@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/error_report.h"
 #include "cli/interruption.h"
 #include "cli/json_output.h"
 #include "cli/text.h"
@@ -36,14 +37,16 @@ std::string report_text(const VerifyReport& report, bool measured) {
   return text;
 }
 
-/// An archive that cannot even be opened is reported in the same way as one with a damaged clip.
+/// An archive that cannot even be opened is reported in the same document as one with a damaged
+/// clip; why it cannot is in `unopened` then.
 VerifyReport report_of(const std::filesystem::path& archive,
                        const std::optional<std::filesystem::path>& against, const ReadOptions& read,
-                       const ProgressSink& progress) {
+                       const ProgressSink& progress, std::optional<Error>& unopened) {
   try {
     return Archive(archive).verify(against, read, progress);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::damaged) throw;
+    unopened = error;
     VerifyReport report;
     report.ok = false;
     report.damaged.push_back({"archive", error.reason()});
@@ -75,12 +78,19 @@ ExitCode VerifyCommand::run(Console& console) {
   if (!against_.empty()) against = against_;
   const InterruptionGuard guard;
   VerifyReport report;
+  std::optional<Error> unopened;
   {
     ProgressBar bar("verify", console.progress_terminal());
-    report = report_of(archive_, against, read_, progress_sink(bar, console));
+    report = report_of(archive_, against, read_, progress_sink(bar, console), unopened);
   }
-  if (!report.ok || !console.quiet()) console.result(report_text(report, against.has_value()));
+  if (!unopened && (!report.ok || !console.quiet())) {
+    console.result(report_text(report, against.has_value()));
+  }
   console.document(document_of(report));
+  if (unopened) {
+    console.complaint(report_line(*unopened));
+    return exit_code(unopened->code());
+  }
   if (report.ok) return exit_done;
   const ErrorCode code = verdict(report);
   console.complaint(printable(

@@ -1,6 +1,7 @@
 #include "exact/plain_frame.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <array>
 #include <memory>
@@ -63,6 +64,7 @@ std::string decompress_plain(std::span<const std::uint8_t> frame, std::size_t mo
   for (bool body = false;;) {
     ZSTD_outBuffer out{piece.data(), piece.size(), 0};
     const std::size_t left = ZSTD_decompressStream(context.get(), &out, &in);
+    if (ZSTD_getErrorCode(left) == ZSTD_error_memory_allocation) throw std::bad_alloc();
     if (ZSTD_isError(left)) throw_damaged_text(ZSTD_getErrorName(left));
     if (out.pos > most - text.size()) throw_damaged_text("it is longer than it says");
     text.append(piece.data(), out.pos);

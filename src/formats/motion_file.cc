@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <istream>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,7 @@ std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) reject(path, "this is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file) {
     reject(path, std::string("the file cannot be opened: ") + std::strerror(errno),
            "make it readable, or leave it out");

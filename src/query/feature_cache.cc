@@ -8,6 +8,7 @@
 #include <string>
 
 #include "formats/whole_file.h"
+#include "model/new_file.h"
 #include "query/motion_library.h"
 
 namespace reprise {
@@ -161,6 +162,7 @@ void write_feature_cache(const std::filesystem::path& file, const Digest& conten
   writer.value(content);
   writer.value(static_cast<std::uint64_t>(takes.size()));
   for (const LibraryTake& take : takes) write_take(writer, take);
+  remove_dead_new_files(file.parent_path(), file.filename().string());
   write_whole_file(file, writer.finish(), "the search cache cannot be written");
 }
 

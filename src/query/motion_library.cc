@@ -10,6 +10,7 @@
 
 #include "model/free_memory.h"
 #include "model/memory_budget.h"
+#include "model/start_threads.h"
 #include "query/take_decoder.h"
 #include "reprise/error.h"
 #include "store/digest.h"
@@ -80,8 +81,12 @@ class Decoding {
     if (jobs == 0) jobs = std::max(1u, std::thread::hardware_concurrency());
     {
       std::vector<std::jthread> threads;
-      for (unsigned t = 1; t < std::min<std::size_t>(jobs, missing_.size()); ++t) {
-        threads.emplace_back([this] { work({}); });
+      const std::size_t most = std::min<std::size_t>(jobs, missing_.size());
+      try {
+        if (most > 1) start_threads(threads, most - 1, [this] { work({}); });
+      } catch (...) {
+        stopped_ = true;
+        throw;
       }
       work(progress);
     }

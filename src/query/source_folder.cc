@@ -1,5 +1,6 @@
 #include "query/source_folder.h"
 
+#include <new>
 #include <set>
 
 #include "reprise/error.h"
@@ -26,6 +27,7 @@ std::string hindrance(const fs::directory_entry& entry) {
   // Links to folders are not followed.
   if (entry.is_symlink(error) || !entry.is_directory(error)) return {};
   const fs::directory_iterator probe(entry.path(), error);
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   return error ? "the folder cannot be read: " + error.message() : std::string();
 }
 
@@ -60,7 +62,7 @@ SourceFolder::SourceFolder(const fs::path& folder, const std::function<void()>& 
     }
   }
   if (error) {
-    throw Error(ErrorCode::failed, "the folder cannot be read: " + error.message(),
+    throw Error(code_of_errno(error.value()), "the folder cannot be read: " + error.message(),
                 {folder.string()});
   }
   for (const auto& [end, files] : by_end) {

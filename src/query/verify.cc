@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "query/archive_impl.h"
@@ -18,6 +19,19 @@ namespace reprise {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Whether a take can be written to its name under a folder: relative, without empty components,
+/// "." and "..". Nobody is given others.
+bool leads_inside(std::string_view name) {
+  if (name.empty() || name.find('\0') != std::string_view::npos) return false;
+  for (std::size_t at = 0; at <= name.size();) {
+    const std::size_t end = std::min(name.find('/', at), name.size());
+    const std::string_view component = name.substr(at, end - at);
+    if (component.empty() || component == "." || component == "..") return false;
+    at = end + 1;
+  }
+  return true;
+}
 
 /// Decodes every layer of a take, and holds each against the source where there is one.
 class TakeCheck {
@@ -40,6 +54,12 @@ class TakeCheck {
       // What is wrong with a source is no damage of the archive.
       note(std::string("its source cannot be read: ") + error.what(), true);
       source = nullptr;
+    }
+    if (!leads_inside(record_.info.name)) {
+      note("its name leads out of the folder that it would be written to", false);
+    }
+    if (proportions.asf_name.find('/') != std::string::npos) {
+      note("its skeleton's name leads to another folder", false);
     }
     for (std::size_t i = 0; i < record_.layers.size(); ++i) {
       std::string text;

@@ -24,6 +24,8 @@ namespace {
 constexpr double rounding_margin = 1e-4;
 /// Points in a leaf.
 constexpr int leaf_size = 16;
+/// Of FLANN's tree, with what its blocks leave unused.
+constexpr std::size_t bytes_of_node = 64;
 
 double squared_distance(std::span<const float> a, const float* b) {
   double sum = 0;
@@ -80,7 +82,15 @@ struct WindowIndex::Tree {
       : index(flann::Matrix<float>(points.data(), static_cast<std::size_t>(points.rows()),
                                    static_cast<std::size_t>(points.cols())),
               flann::KDTreeSingleIndexParams(leaf_size)) {
+    see_to_memory(static_cast<std::size_t>(points.rows()));
     index.buildIndex();
+  }
+
+  /// FLANN does not look whether it gets the memory for its nodes. Throws std::bad_alloc where
+  /// there is none.
+  static void see_to_memory(std::size_t points) {
+    const std::size_t nodes = 4 * points / leaf_size + 2;  // leaves are half full at least
+    ::operator delete(::operator new(nodes* bytes_of_node));
   }
 
   /// The points that may be within a squared distance, in any order.

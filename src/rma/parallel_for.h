@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "model/start_threads.h"
+
 namespace reprise {
 
 /// 0 stands for a thread a core.
@@ -35,7 +37,14 @@ void parallel_for(std::size_t count, unsigned jobs, Work&& work) {
   {
     std::vector<std::jthread> threads;
     const std::size_t most = std::min<std::size_t>(thread_count(jobs), count);
-    for (std::size_t t = 1; t < most; ++t) threads.emplace_back(run);
+    if (most > 1) {
+      try {
+        start_threads(threads, most - 1, run);
+      } catch (...) {
+        next = count;  // those that run have nothing more to do
+        throw;
+      }
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

@@ -1,17 +1,13 @@
 #include "store/archive_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <optional>
-#include <sstream>
 
+#include "model/new_file.h"
 #include "store/archive_store.h"
 #include "store/digest.h"
+#include "store/file_header.h"
 #include "store/page_checksum_vfs.h"
 #include "store/schema.h"
 #include "store/writer_lock.h"
@@ -28,10 +24,14 @@ namespace fs = std::filesystem;
 /// The tables must be exactly those of the schema: nothing in the file is to run code of its own.
 void check_schema(const Database& database) {
   std::vector<std::string> expected, found;
-  std::istringstream lines(schema_text());
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty() && line.back() == ';') line.pop_back();
-    expected.push_back(line);
+  // No stream: it would take a want of memory for the end of the text.
+  std::string_view text = schema_text();
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with(';')) line.remove_suffix(1);
+    expected.emplace_back(line);
   }
   Statement statement(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL");
   while (statement.step()) found.push_back(statement.text());
@@ -39,17 +39,6 @@ void check_schema(const Database& database) {
   std::ranges::sort(found);
   if (expected != found)
     throw_damaged(database.path(), "the tables are not those of a Reprise archive");
-}
-
-/// SQLite's header of a file.
-constexpr std::size_t header_bytes = 100;
-constexpr std::size_t version_at = 60, application_at = 68;
-
-/// A number of the header, high byte first.
-std::int64_t header_number(std::string_view header, std::size_t at) {
-  std::uint32_t value = 0;
-  for (const char byte : header.substr(at, 4)) value = value << 8 | static_cast<std::uint8_t>(byte);
-  return static_cast<std::int32_t>(value);
 }
 
 /// An archive without takes.
@@ -69,28 +58,23 @@ void create_archive(const fs::path& path) {
   database.run("COMMIT");
 }
 
-/// A file of its own beside an archive, which goes with this object.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& beside)
-      : path_(beside.string() + ".new-" + std::to_string(::getpid())) {
-    ::unlink(path_.c_str());
-    const int descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) {
-      throw Error(code_of_errno(errno),
-                  std::string("the archive cannot be opened for writing: ") + std::strerror(errno),
-                  {beside.string()});
-    }
-    ::close(descriptor);
+/// Pages behind the last one that the archive needs were pages of it, or of the image that replaced
+/// it, and none is there in part. The last one was written: SQLite makes a file longer by writing
+/// its last page.
+bool is_rest_of_archive(const Database& database, std::int64_t pages, std::int64_t page_size) {
+  if (database.file_size() % page_size != 0) return false;
+  const std::int64_t all = database.file_size() / page_size;
+  std::vector<std::byte> page(static_cast<std::size_t>(page_size));
+  for (std::int64_t p = pages; p < all; ++p) {
+    const int result = database.read_file(page, p * page_size);
+    if (result == SQLITE_OK) continue;
+    if (result != SQLITE_IOERR_DATA) database.fail(result);
+    const bool never_used =
+        std::ranges::all_of(page, [](std::byte byte) { return byte == std::byte{0}; });
+    if (!never_used || p + 1 == all) return false;
   }
-  ~TemporaryFile() { ::unlink(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
+  return true;
+}
 
 bool is_empty_file(const fs::path& path) {
   return fs::is_regular_file(path) && fs::file_size(path) == 0;
@@ -99,25 +83,36 @@ bool is_empty_file(const fs::path& path) {
 }  // namespace
 
 bool begins_as_archive(std::string_view start) {
-  constexpr std::string_view magic("SQLite format 3\0", 16);
-  return start.size() >= header_bytes && start.starts_with(magic) &&
-         header_number(start, application_at) == application_id;
+  if (start.size() < FileHeader::bytes) return false;
+  const FileHeader header =
+      FileHeader::read({reinterpret_cast<const std::uint8_t*>(start.data()), FileHeader::bytes});
+  return header.is_database && header.application == application_id;
 }
 
 void check_header(const Database& database) {
   const fs::path& path = database.path();
-  std::array<char, header_bytes> bytes{};
+  std::array<std::uint8_t, FileHeader::bytes> bytes{};
   const int read = database.read_file(std::as_writable_bytes(std::span(bytes)), 0);
   if (read != SQLITE_OK && read != SQLITE_IOERR_SHORT_READ) database.fail(read);
-  const std::string_view header(bytes.data(), bytes.size());
-  if (!begins_as_archive(header)) throw_damaged(path, "this is not a Reprise archive");
-  const std::int64_t version = header_number(header, version_at);
-  if (version / 1000 > format_version / 1000) {
+  const FileHeader header = FileHeader::read(bytes);
+  if (!header.is_database || header.application != application_id)
+    throw_damaged(path, "this is not a Reprise archive");
+  if (header.version / 1000 > format_version / 1000) {
     throw Error(ErrorCode::newer_version,
-                "the archive has format " + std::to_string(version / 1000) +
+                "the archive has format " + std::to_string(header.version / 1000) +
                     "; this program reads format " + std::to_string(format_version / 1000),
                 {path.string()}, "a newer version of the program reads it");
   }
+  if (header.write_ahead) {
+    throw Error(ErrorCode::damaged,
+                "another program has put the archive into SQLite's WAL mode, in which it is no "
+                "Reprise archive",
+                {path.string()}, "use a copy that no other program has written to");
+  }
+}
+
+bool is_longer_than_it_says(const Database& database) {
+  return database.file_size() > pragma(database, "page_count") * pragma(database, "page_size");
 }
 
 void check_identity(Database& database) {
@@ -125,13 +120,26 @@ void check_identity(Database& database) {
   check_header(database);
   database.run("BEGIN");
   Statement(database, "SELECT count(*) FROM sqlite_schema").step();
-  const auto size = static_cast<std::int64_t>(fs::file_size(path));
-  if (size != pragma(database, "page_count") * pragma(database, "page_size")) {
+  const std::int64_t size = database.file_size();
+  const std::int64_t pages = pragma(database, "page_count"), bytes = pragma(database, "page_size");
+  if (size < pages * bytes ||
+      (size > pages * bytes && !is_rest_of_archive(database, pages, bytes))) {
     throw_damaged(path, "the archive is damaged: the file is " + std::to_string(size) +
                             " bytes long, which is not what it says");
   }
   check_schema(database);
   database.run("COMMIT");
+}
+
+void cut_off_rest(Database& database, const std::function<bool()>& waiting) {
+  database.run_alone("BEGIN EXCLUSIVE", waiting);
+  try {
+    database.shorten_file(pragma(database, "page_count") * pragma(database, "page_size"));
+  } catch (...) {
+    database.run("ROLLBACK");
+    throw;
+  }
+  database.run("ROLLBACK");
 }
 
 bool create_if_missing(const fs::path& path) {
@@ -141,17 +149,23 @@ bool create_if_missing(const fs::path& path) {
   std::optional<WriterLock> lock;
   if (there) lock.emplace(path, false);
   if (there && !is_empty_file(path)) return false;
-  const TemporaryFile whole(path);
-  try {
-    create_archive(whole.path());
-  } catch (const Error& error) {  // told of the file that is meant
-    throw Error(error.code(), error.reason(), {path.string()}, error.advice());
+  bool created = false;
+  {
+    NewFile whole(path, "the archive cannot be made");
+    try {
+      create_archive(whole.path());
+    } catch (const Error& error) {  // told of the file that is meant
+      throw Error(error.code(), error.reason(), {path.string()}, error.advice());
+    }
+    // Another writer may have come first. What was there before is not taken away again.
+    if (there) {
+      whole.replace();
+    } else {
+      created = whole.place();
+    }
   }
-  // Another writer may have come first; a link, where there are links, does not replace its file.
-  if (!there && ::link(whole.path().c_str(), path.c_str()) == 0) return true;
-  if (!there && errno == EEXIST) return false;
-  // What was there before is not taken away again.
-  return ::rename(whole.path().c_str(), path.c_str()) == 0 && !there;
+  if (created || there) sync_folder_of(path);
+  return created;
 }
 
 std::int64_t pragma(const Database& database, const std::string& name) {

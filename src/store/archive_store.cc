@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "model/new_file.h"
 #include "store/archive_file.h"
 #include "store/store_impl.h"
 
@@ -58,16 +59,20 @@ ArchiveStore ArchiveStore::open_for_writing(const fs::path& path, WaitNotice wai
   const bool created = create_if_missing(path);
   auto impl = std::make_unique<Impl>();
   impl->lock.emplace(path, created);
+  remove_dead_new_files(path.parent_path(), path.filename().string());
   impl->database.emplace(path, Database::Mode::write);
   impl->writing = true;
   impl->waiting = std::move(waiting);
   check_header(*impl->database);
-  // Pages are not written before a commit, which alone waits for readers.
+  // Pages are not written before a commit, which alone waits for readers: then the journal is
+  // complete, and holds the first page (journal_check.h). EXTRA: a commit is done only when it
+  // would not be undone by a loss of power that brings the deleted journal back.
   impl->database->run(
-      "PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL; PRAGMA cache_spill=OFF;");
+      "PRAGMA journal_mode=DELETE; PRAGMA synchronous=EXTRA; PRAGMA cache_spill=OFF;");
   // A read first: it takes back what a writer that died had not finished.
   Statement(*impl->database, "SELECT count(*) FROM sqlite_schema").step();
   check_identity(*impl->database);
+  if (is_longer_than_it_says(*impl->database)) cut_off_rest(*impl->database, impl->waiting);
   return ArchiveStore(std::move(impl));
 }
 
@@ -110,6 +115,8 @@ void ArchiveStore::compact() {
   // Readers end soon; another program that writes may not.
   impl_->database->run("BEGIN IMMEDIATE; ROLLBACK");
   impl_->database->run_alone("VACUUM", impl_->waiting);
+  // SQLite says nothing where the file could not be made shorter after that.
+  if (is_longer_than_it_says(*impl_->database)) cut_off_rest(*impl_->database, impl_->waiting);
 }
 
 ArchiveStore::Snapshot ArchiveStore::snapshot() const {

@@ -1,6 +1,7 @@
 #include "store/compression.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <memory>
 
@@ -56,6 +57,7 @@ Bytes decompress(std::span<const std::uint8_t> frame, std::size_t most,
   Bytes bytes(size);
   const std::size_t got =
       ZSTD_decompressDCtx(context.get(), bytes.data(), bytes.size(), frame.data(), frame.size());
+  if (ZSTD_getErrorCode(got) == ZSTD_error_memory_allocation) throw std::bad_alloc();
   if (ZSTD_isError(got)) throw_damaged(ZSTD_getErrorName(got));
   if (got != size) throw_damaged("it is shorter than it says");
   return bytes;

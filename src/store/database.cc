@@ -1,6 +1,7 @@
 #include "store/database.h"
 
-#include <cstring>
+#include <cerrno>
+#include <new>
 
 #include "store/page_checksum_vfs.h"
 
@@ -10,7 +11,9 @@ namespace {
 /// No row of ours is larger (bytes): what a hostile file may make SQLite allocate.
 constexpr int most_row_bytes = 1 << 30;
 
-ErrorCode code_of(int result) {
+/// What the system said of a file that could not be opened, read or written tells a limit from
+/// other failures. `number` is its errno, or 0.
+ErrorCode code_of(int result, int number) {
   switch (result & 0xff) {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
@@ -23,51 +26,84 @@ ErrorCode code_of(int result) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return ErrorCode::locked;
+    case SQLITE_CANTOPEN:
+      return code_of_errno(number);
     case SQLITE_IOERR:
-      return result == SQLITE_IOERR_DATA || result == SQLITE_IOERR_SHORT_READ ||
-                     result == SQLITE_IOERR_CORRUPTFS
-                 ? ErrorCode::damaged
-                 : ErrorCode::failed;
+      if (result == SQLITE_IOERR_NOMEM) return ErrorCode::limit;
+      if (result == SQLITE_IOERR_DATA || result == SQLITE_IOERR_SHORT_READ ||
+          result == SQLITE_IOERR_CORRUPTFS || result == foreign_journal) {
+        return ErrorCode::damaged;
+      }
+      // EAGAIN is of locks here.
+      return number == EAGAIN ? ErrorCode::failed : code_of_errno(number);
     default:
       return ErrorCode::failed;
   }
 }
 
-/// `number` is the system's errno where the file could not be opened.
-std::string reason_of(int result, const std::string& message, int number) {
-  switch (code_of(result)) {
-    case ErrorCode::damaged:
-      if ((result & 0xff) == SQLITE_NOTADB) return "this is not a Reprise archive";
-      return "the archive is damaged: " + (result == SQLITE_IOERR_DATA
-                                               ? std::string("a page is not as it was written")
-                                               : message);
-    case ErrorCode::limit:
-      return (result & 0xff) == SQLITE_FULL
-                 ? "the disk is full, or a limit on the size of files is reached"
-                 : "out of memory";
-    case ErrorCode::locked:
+std::string reason_of(int result, int number, const std::string& path, const std::string& journal) {
+  const std::string system = number != 0 ? ": " + reason_of_errno(number, path) : std::string();
+  switch (result & 0xff) {
+    case SQLITE_NOTADB:
+      return "this is not a Reprise archive";
+    case SQLITE_CORRUPT:
+    case SQLITE_FORMAT:
+      return "the archive is damaged: its tables do not hold together";
+    case SQLITE_FULL: {
+      const std::string full = reason_of_errno(ENOSPC, path);
+      return full == reason_of_errno(ENOSPC, {})
+                 ? full + ", or a limit on the size of files is reached"
+                 : full;
+    }
+    case SQLITE_NOMEM:
+    case SQLITE_TOOBIG:
+      return "out of memory";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
       return "the archive is in use by another process";
+    case SQLITE_READONLY:
+      return result == SQLITE_READONLY_DIRECTORY
+                 ? "the folder of the archive cannot be written; a change is kept in a file beside "
+                   "it until it is complete"
+                 : "a writer that ended left a change unfinished, which can be taken back only "
+                   "where the archive may be written";
+    case SQLITE_CANTOPEN:
+      return "the archive, or the file beside it that keeps a change until it is complete, cannot "
+             "be "
+             "opened" +
+             system;
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return "the archive may not be opened" + system;
+    case SQLITE_IOERR:
+      if (result == SQLITE_IOERR_NOMEM) return "out of memory";
+      if (result == SQLITE_IOERR_DATA)
+        return "the archive is damaged: a page is not as it was written";
+      if (result == SQLITE_IOERR_SHORT_READ || result == SQLITE_IOERR_CORRUPTFS)
+        return "the archive is damaged: a part of the file is not there";
+      if (result == foreign_journal) {
+        return "the file '" + journal +
+               "' is what a writer left of a change to another archive, or to another state of "
+               "this "
+               "one; taken back here it would destroy this one";
+      }
+      return "the archive cannot be read or written" + system;
     default:
-      if (result == SQLITE_READONLY_DIRECTORY) {
-        return "the folder of the archive cannot be written; a change is kept in a file beside it "
-               "until it is complete";
-      }
-      if ((result & 0xff) == SQLITE_READONLY) {
-        return "a writer that ended left a change unfinished, which can be taken back only where "
-               "the archive may be written";
-      }
-      if ((result & 0xff) != SQLITE_CANTOPEN) return message;
-      return "the archive cannot be opened" +
-             (number != 0 ? std::string(": ") + std::strerror(number) : std::string());
+      return "the archive cannot be used (SQLite's error " + std::to_string(result) + ")";
   }
+}
+
+std::string advice_of(int result) {
+  if (result != foreign_journal) return {};
+  return "put the archive back that the file belongs to; or, if this is the archive that you mean, "
+         "move the file away";
 }
 
 }  // namespace
 
 Database::Database(const std::filesystem::path& path, Mode mode) : path_(path) {
   sqlite3* raw = nullptr;
-  const int flags =
-      mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   // SQLite takes the names :memory: and file:... for something else than files.
   const std::filesystem::path file = path.is_absolute() ? path : "." / path;
   const int result = sqlite3_open_v2(
@@ -101,7 +137,7 @@ void Database::run_alone(const std::string& sql, const std::function<bool()>& wa
   };
   int result = attempt(LockWaits::told_ms);
   for (int waited = LockWaits::told_ms;
-       code_of(result) == ErrorCode::locked && waited < LockWaits::commit_ms;
+       code_of(result, 0) == ErrorCode::locked && waited < LockWaits::commit_ms;
        waited += LockWaits::told_ms) {
     if (waiting && !waiting()) {
       throw Error(ErrorCode::interrupted, "stopped while other processes read the archive");
@@ -111,16 +147,40 @@ void Database::run_alone(const std::string& sql, const std::function<bool()>& wa
   if (result != SQLITE_OK) fail(result);
 }
 
-int Database::read_file(std::span<std::byte> to, std::int64_t offset) const {
+sqlite3_file* Database::file() const {
   sqlite3_file* file = nullptr;
   sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_FILE_POINTER, &file);
-  return file->pMethods->xRead(file, to.data(), static_cast<int>(to.size()), offset);
+  return file;
+}
+
+int Database::read_file(std::span<std::byte> to, std::int64_t offset) const {
+  return file()->pMethods->xRead(file(), to.data(), static_cast<int>(to.size()), offset);
+}
+
+std::int64_t Database::file_size() const {
+  sqlite3_int64 size = 0;
+  const int result = file()->pMethods->xFileSize(file(), &size);
+  if (result != SQLITE_OK) fail(result);
+  return size;
+}
+
+void Database::shorten_file(std::int64_t size) const {
+  int result = file()->pMethods->xTruncate(file(), size);
+  if (result == SQLITE_OK) result = file()->pMethods->xSync(file(), SQLITE_SYNC_FULL);
+  if (result != SQLITE_OK) fail(result);
 }
 
 void Database::fail(int code) const {
-  const std::string message = handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code);
-  const int number = handle_ ? sqlite3_system_errno(handle_.get()) : 0;
-  throw Error(code_of(code), reason_of(code, message, number), {path_.string()});
+  if (!handle_) throw std::bad_alloc();
+  int number = sqlite3_system_errno(handle_.get());
+  // A call to the file itself does not pass through SQLite's own record of errors.
+  if (number == 0 && (code & 0xff) == SQLITE_IOERR && file() != nullptr) {
+    file()->pMethods->xFileControl(file(), SQLITE_FCNTL_LAST_ERRNO, &number);
+  }
+  const char* name = sqlite3_db_filename(handle_.get(), "main");
+  const std::string journal = name != nullptr ? sqlite3_filename_journal(name) : std::string();
+  throw Error(code_of(code, number), reason_of(code, number, path_.string(), journal),
+              {path_.string()}, advice_of(code));
 }
 
 Statement::Statement(const Database& database, std::string_view sql) : database_(database) {
@@ -169,17 +229,25 @@ std::int64_t Statement::integer() { return sqlite3_column_int64(statement_.get()
 
 double Statement::real() { return sqlite3_column_double(statement_.get(), column_++); }
 
+void Statement::check_memory() const {
+  if ((sqlite3_errcode(database_.handle()) & 0xff) == SQLITE_NOMEM) database_.fail(SQLITE_NOMEM);
+}
+
 std::string Statement::text() {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column_));
   const int size = sqlite3_column_bytes(statement_.get(), column_++);
-  return text ? std::string(text, static_cast<std::size_t>(size)) : std::string();
+  if (text != nullptr) return {text, static_cast<std::size_t>(size)};
+  check_memory();
+  return {};
 }
 
 Bytes Statement::bytes() {
   const auto* data =
       static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column_));
   const int size = sqlite3_column_bytes(statement_.get(), column_++);
-  return data ? Bytes(data, data + size) : Bytes();
+  if (data != nullptr) return {data, data + size};
+  check_memory();
+  return {};
 }
 
 Bytes read_part(const Database& database, const BlobPlace& place, std::size_t offset,

@@ -44,6 +44,11 @@ class Database {
   /// checksum is wrong is SQLITE_IOERR_DATA.
   int read_file(std::span<std::byte> to, std::int64_t offset) const;
 
+  /// Bytes of the file. Throws Error.
+  std::int64_t file_size() const;
+  /// Cuts the file off, and syncs it. For who has locked it for itself. Throws Error.
+  void shorten_file(std::int64_t size) const;
+
   /// Turns a result code into an Error.
   [[noreturn]] void fail(int code) const;
 
@@ -51,6 +56,8 @@ class Database {
   struct Close {
     void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
   };
+  sqlite3_file* file() const;
+
   std::filesystem::path path_;
   std::unique_ptr<sqlite3, Close> handle_;
 };
@@ -80,6 +87,8 @@ class Statement {
     void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
   };
   void check(int code) const;
+  /// SQLite gives no text or bytes where there are none, and where it has no memory for them.
+  void check_memory() const;
 
   const Database& database_;
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;

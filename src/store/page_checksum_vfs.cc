@@ -1,13 +1,19 @@
 #include "store/page_checksum_vfs.h"
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 #include <xxhash.h>
 
+#include <array>
+#include <cerrno>
 #include <cstring>
 #include <mutex>
-#include <vector>
+#include <new>
 
 #include "reprise/error.h"
+#include "store/file_header.h"
+#include "store/journal_check.h"
 
 namespace reprise {
 namespace {
@@ -19,6 +25,8 @@ constexpr const char* vfs_name = "reprise-page-checksum";
 struct CheckedFile {
   sqlite3_file base;
   bool is_archive;
+  std::uint32_t nonce;   ///< of an archive: that of the journal of the change at hand
+  CheckedFile* archive;  ///< of a journal: its archive
   sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }
 };
 
@@ -52,25 +60,54 @@ int with_limits_told(sqlite3_file* file, int result) {
   if ((result & 0xff) != SQLITE_IOERR) return result;
   int number = 0;
   real(file)->pMethods->xFileControl(real(file), SQLITE_FCNTL_LAST_ERRNO, &number);
-  return code_of_errno(number) == ErrorCode::limit ? SQLITE_FULL : result;
+  if (number == ENOMEM) return SQLITE_IOERR_NOMEM;
+  return number != EAGAIN && code_of_errno(number) == ErrorCode::limit ? SQLITE_FULL : result;
+}
+
+/// A page that changes the file names the journal that the change can be taken back by. What is
+/// played back from a journal is of an earlier state, and says so itself.
+int name_state(CheckedFile& file, std::span<std::uint8_t> page) {
+  std::array<std::uint8_t, FileHeader::bytes> start{};
+  const int result =
+      file.real()->pMethods->xRead(file.real(), start.data(), static_cast<int>(start.size()), 0);
+  // Of a file that is new, there is less: the rest are zeros.
+  if (result != SQLITE_OK && result != SQLITE_IOERR_SHORT_READ) return result;
+  const FileHeader now = FileHeader::read(start);
+  if (FileHeader::read(page).counter != now.counter + 1) return SQLITE_OK;
+  FileIdentity identity{now.identity.archive, file.nonce};
+  if (!now.is_database) {
+    sqlite3_randomness(static_cast<int>(identity.archive.size()), identity.archive.data());
+  }
+  write_identity(identity, page);
+  return SQLITE_OK;
 }
 
 int write_file(sqlite3_file* file, const void* data, int size, sqlite3_int64 offset) {
-  if (!is_page(file, size, offset)) {
-    return with_limits_told(file, real(file)->pMethods->xWrite(real(file), data, size, offset));
+  if (CheckedFile* archive = checked(file)->archive; archive != nullptr) {
+    if (offset == 0 && size >= journal_start_bytes) {
+      archive->nonce =
+          number_at({static_cast<const std::uint8_t*>(data), static_cast<std::size_t>(size)},
+                    journal_nonce_at);
+    }
+  } else if (is_page(file, size, offset)) {
+    // In SQLite's own copy, as its checksum VFS does it: what a later journal holds of this page is
+    // then what the file has.
+    const std::span page(static_cast<std::uint8_t*>(const_cast<void*>(data)),
+                         static_cast<std::size_t>(size));
+    if (offset == 0) {
+      const int result = name_state(*checked(file), page);
+      if (result != SQLITE_OK) return result;
+    }
+    const std::uint64_t checksum = page_checksum(page, number_of(size, offset));
+    for (std::size_t b = 0; b < page_checksum_bytes; ++b) {
+      page[page.size() - page_checksum_bytes + b] = static_cast<std::uint8_t>(checksum >> (8 * b));
+    }
   }
-  std::vector<std::uint8_t> page(static_cast<std::size_t>(size));
-  std::memcpy(page.data(), data, page.size());
-  const std::uint64_t checksum = page_checksum(page, number_of(size, offset));
-  for (std::size_t b = 0; b < page_checksum_bytes; ++b) {
-    page[page.size() - page_checksum_bytes + b] = static_cast<std::uint8_t>(checksum >> (8 * b));
-  }
-  return with_limits_told(file,
-                          real(file)->pMethods->xWrite(real(file), page.data(), size, offset));
+  return with_limits_told(file, real(file)->pMethods->xWrite(real(file), data, size, offset));
 }
 
 int truncate_file(sqlite3_file* f, sqlite3_int64 size) {
-  return real(f)->pMethods->xTruncate(real(f), size);
+  return with_limits_told(f, real(f)->pMethods->xTruncate(real(f), size));
 }
 int sync_file(sqlite3_file* f, int flags) {
   return with_limits_told(f, real(f)->pMethods->xSync(real(f), flags));
@@ -88,8 +125,9 @@ int control_file(sqlite3_file* f, int op, void* arg) {
 }
 int sector_size(sqlite3_file* f) { return real(f)->pMethods->xSectorSize(real(f)); }
 int characteristics(sqlite3_file* f) {
-  // A torn page would fail its checksum, so nothing is promised that the real file does not.
-  return real(f)->pMethods->xDeviceCharacteristics(real(f));
+  // A torn page would fail its checksum, so nothing is promised that the real file does not. Every
+  // change has a journal that is whole once the file is touched, whatever a file system can do.
+  return real(f)->pMethods->xDeviceCharacteristics(real(f)) & SQLITE_IOCAP_POWERSAFE_OVERWRITE;
 }
 
 const sqlite3_io_methods methods = [] {
@@ -110,11 +148,45 @@ const sqlite3_io_methods methods = [] {
   return m;
 }();
 
+/// A journal that is opened and not made was left by a writer that died: SQLite looks at it, and
+/// then plays it back.
+int check_left_journal(sqlite3_file* file) {
+  bool fits = false;
+  const int result = check_journal(checked(file)->archive->real(), real(file), fits);
+  if (result == SQLITE_OK && fits) return SQLITE_OK;
+  real(file)->pMethods->xClose(real(file));
+  return result != SQLITE_OK ? result : foreign_journal;
+}
+
+/// Why a file cannot be made, as an errno, or 0. SQLite tries in several ways, and the last one's
+/// errno says nothing.
+int hindrance_of(const char* name) {
+  const int descriptor = ::open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) return errno;
+  ::close(descriptor);
+  return 0;
+}
+
 int open_file(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int* out) {
   file->pMethods = nullptr;
   checked(file)->is_archive = (flags & SQLITE_OPEN_MAIN_DB) != 0;
-  const int result = real(vfs)->xOpen(real(vfs), name, real(file), flags, out);
-  if (real(file)->pMethods != nullptr) file->pMethods = &methods;
+  checked(file)->nonce = 0;
+  checked(file)->archive = nullptr;
+  int result = real(vfs)->xOpen(real(vfs), name, real(file), flags, out);
+  if (real(file)->pMethods == nullptr) {
+    const bool new_journal =
+        (flags & SQLITE_OPEN_MAIN_JOURNAL) != 0 && (flags & SQLITE_OPEN_CREATE) != 0;
+    const int number = new_journal && result == SQLITE_CANTOPEN ? hindrance_of(name) : 0;
+    if (number != 0) errno = number;
+    return result;
+  }
+  if ((flags & SQLITE_OPEN_MAIN_JOURNAL) != 0) {
+    checked(file)->archive = checked(sqlite3_database_file_object(name));
+    const bool left = result == SQLITE_OK && (flags & SQLITE_OPEN_CREATE) == 0;
+    if (left) result = check_left_journal(file);
+    if (left && result != SQLITE_OK) return result;
+  }
+  file->pMethods = &methods;
   return result;
 }
 
@@ -154,7 +226,7 @@ const char* page_checksum_vfs() {
   static std::once_flag once;
   static sqlite3_vfs vfs{};
   std::call_once(once, [] {
-    sqlite3_initialize();
+    if (sqlite3_initialize() != SQLITE_OK) throw std::bad_alloc();
     sqlite3_vfs* system = sqlite3_vfs_find(nullptr);
     vfs.iVersion = 1;
     vfs.szOsFile = static_cast<int>(sizeof(CheckedFile)) + system->szOsFile;

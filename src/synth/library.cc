@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/whole_file.h"
+#include "model/new_file.h"
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
 #include "synth/channels.h"
@@ -108,6 +109,7 @@ std::size_t write_synthetic_library(const fs::path& folder, const SynthOptions& 
   const std::vector<Subject> subjects = make_subjects(options, plan);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     make_folder(folder / plan.subjects[i]);
+    remove_dead_new_files(folder / plan.subjects[i]);
     if (!bvh) write_whole_file(asf_path(plan.subjects[i]), subjects[i].skeleton->source_text);
   }
   const auto truth = make_takes(options, plan, subjects, [&](const Take& take) {

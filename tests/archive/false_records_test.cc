@@ -1,4 +1,6 @@
 // Records that are whole, as their digests say, and do not fit each other: somebody made them so.
+#include <set>
+
 #include "archive/archive_fixture.h"
 #include "exact/text_codec.h"
 #include "refine/coarse_channels.h"
@@ -117,6 +119,23 @@ TEST_F(FalseRecords, ChannelsThatBreakTheirMeanAreFound) {
   for (const Damage& damage : archive.verify(folder_ / "takes").damaged)
     damaged.push_back(damage.id);
   EXPECT_EQ(damaged, std::vector<std::string>{"broken"});
+}
+
+TEST_F(FalseRecords, NamesThatLeadOutOfAFolderAreFound) {
+  ClipRecord clip;
+  clip.frames = short_.info.frames;
+  const std::vector<std::string> names = {"../x",  "/x",   "a//x",
+                                          "a/./x", "a/..", std::string("a\0b", 3)};
+  for (const std::string& name : names) {
+    short_.info.name = name;
+    store_->add_take(short_, std::span(&clip, 1));
+  }
+  store_->commit();
+  store_.reset();
+  std::set<std::string> damaged;
+  for (const Damage& damage : Archive(folder_ / "archive").verify().damaged)
+    damaged.insert(damage.id);
+  EXPECT_EQ(damaged, std::set<std::string>(names.begin(), names.end()));
 }
 
 TEST_F(FalseRecords, FramesThatNoTextHasAreDamage) {

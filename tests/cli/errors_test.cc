@@ -152,6 +152,51 @@ TEST_F(ErrorsTest, DamageIsFour) {
   EXPECT_TRUE(seen);
 }
 
+TEST_F(ErrorsTest, WhatCannotBeOpenedIsCalledWhatItIs) {
+  make_library();
+  write_file(folder() / "text.rpz", "not an archive, but a text of some length\n");
+  std::string ahead = read_file(folder() / "lib.rpz");
+  ahead[18] = ahead[19] = 2;  // as a database in WAL mode has it
+  write_file(folder() / "wal.rpz", ahead);
+  const std::map<std::string, std::string> words = {{"text.rpz", "this is not a Reprise archive"},
+                                                    {"wal.rpz", "WAL mode"}};
+  for (const auto& [name, words_of_it] : words) {
+    for (const char* command : {"list", "verify", "compact"}) {
+      const Outcome outcome = reprise({command, name});
+      EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+      EXPECT_NE(outcome.err.find(words_of_it), std::string::npos) << outcome.err;
+      EXPECT_EQ(outcome.err.find("damaged"), std::string::npos) << outcome.err;
+      EXPECT_EQ(outcome.out, "");
+    }
+  }
+}
+
+// The words of a library that users do not know say nothing to them.
+TEST_F(ErrorsTest, DamageIsToldInOurWords) {
+  make_library();
+  std::string bytes = read_file(folder() / "lib.rpz");
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder() / "lib.rpz").c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database,
+                         "DELETE FROM keys WHERE id=(SELECT max(id) FROM keys); "
+                         "UPDATE blocks SET takes=zeroblob(9)",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+  for (std::size_t at :
+       {std::size_t{0}, std::size_t{1024}, std::size_t{2048}, bytes.size() - 1024}) {
+    std::string torn = at == 0 ? read_file(folder() / "lib.rpz") : bytes;
+    if (at > 0) torn.replace(at, 512, std::string(512, '\x7f'));
+    write_file(folder() / "torn.rpz", torn);
+    const Outcome outcome = reprise({"verify", "torn.rpz"});
+    EXPECT_EQ(outcome.exit_code, 4);
+    for (const char* word : {"malformed", "btree", "Tree", "disk image", "rowid", "SQLite"}) {
+      EXPECT_EQ((outcome.out + outcome.err).find(word), std::string::npos)
+          << outcome.out << outcome.err;
+    }
+  }
+}
+
 TEST_F(ErrorsTest, NewerVersionIsFive) {
   make_library();
   // SQLite's header has the user version at byte 60, big-endian.

@@ -1,5 +1,6 @@
 // Decoded motion in files: whole, in part, in trees, and never where it should not be.
 #include <cmath>
+#include <set>
 
 #include "cli/command_runner.h"
 #include "reprise/formats/motion_file.h"
@@ -74,6 +75,55 @@ TEST_F(ExtractTest, TreeOfNamesIsKept) {
   EXPECT_EQ(reprise({"extract", "lib.rpz", "--all", "-d", "out/tree"}).exit_code, 1);
   EXPECT_EQ(reprise({"extract", "lib.rpz", "--all", "-d", "out/tree", "--overwrite"}).exit_code, 0);
   EXPECT_EQ(files_below(folder() / "out/tree"), files);
+}
+
+// One take that has no place under the folder holds nobody else up.
+TEST_F(ExtractTest, AllOthersAreWrittenBesideThoseThatCannotBe) {
+  output({"synth", "takes", "--takes", "3", "--seconds", "1", "--subjects", "1"});
+  const fs::path in = folder() / "in";
+  fs::create_directories(in);
+  fs::copy_file(folder() / "takes/s01/s01_01.bvh", in / "x.bvh");
+  fs::copy_file(folder() / "takes/s01/s01_02.bvh", in / "x.bvh.bvh");
+  fs::copy_file(folder() / "takes/s01/s01_03.bvh", in / "z.bvh");
+  output({"ingest", "lib.rpz", "in"});
+  // Of y a file and a folder are made.
+  output({"ingest", "lib.rpz", "takes/s01/s01_01.bvh", "--prefix", "y.bvh"});
+  fs::copy_file(folder() / "takes/s01/s01_02.bvh", folder() / "y.bvh");
+  output({"ingest", "lib.rpz", "y.bvh"});
+  output({"ingest", "lib.rpz", "takes/s01/s01_03.bvh", "--prefix", std::string(256, 'd')});
+
+  const auto report = document({"extract", "lib.rpz", "--all", "-d", "out"}, 1);
+  const auto files = files_below(folder() / "out");
+  EXPECT_TRUE(files.contains("z.bvh"));
+  EXPECT_EQ(files.size(), 2U);  // and one of y's
+  EXPECT_EQ(report.at("extracted").size(), 2U);
+  EXPECT_EQ(report.at("damaged").size(), 0U);
+  std::set<std::string> named;
+  for (const auto& entry : report.at("unwritten")) {
+    named.insert(entry.at("id"));
+    EXPECT_FALSE(entry.at("why").get<std::string>().empty());
+  }
+  EXPECT_EQ(named.size(), 4U);
+  EXPECT_TRUE(named.contains("x"));
+  EXPECT_TRUE(named.contains("x.bvh"));
+  const Outcome told = reprise({"extract", "lib.rpz", "--all", "-d", "out", "--overwrite"});
+  EXPECT_EQ(told.exit_code, 1);
+  EXPECT_EQ(lines_of(told.err).size(), 4U) << told.err;
+  // What was asked for by name is written in full or not at all.
+  EXPECT_EQ(reprise({"extract", "lib.rpz", "x", "x.bvh", "-d", "both"}).exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder() / "both"));
+}
+
+TEST_F(ExtractTest, ALinkInTheTreeHoldsNobodyElseUp) {
+  make_library();
+  fs::create_directories(folder() / "out");
+  fs::create_directories(folder() / "elsewhere");
+  fs::create_directory_symlink(folder() / "elsewhere", folder() / "out" / "s01");
+  const auto report = document({"extract", "lib.rpz", "--all", "-d", "out"}, 1);
+  EXPECT_EQ(report.at("extracted").size() + report.at("unwritten").size(), 4U);
+  EXPECT_GT(report.at("extracted").size(), 0U);
+  EXPECT_GT(report.at("unwritten").size(), 0U);
+  EXPECT_TRUE(fs::is_empty(folder() / "elsewhere"));
 }
 
 TEST_F(ExtractTest, AmcComesWithItsAsf) {

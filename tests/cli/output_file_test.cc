@@ -47,9 +47,11 @@ TEST_F(OutputFile, ReplacesOnlyWhenTold) {
   const fs::path path = folder_ / "a.bvh";
   write_file_atomically(path, "one", false);
   EXPECT_THROW(write_file_atomically(path, "two", false), Error);
-  EXPECT_TRUE(file_has_content(path, "one"));
+  EXPECT_TRUE(OutputFolder::of(path).has("a.bvh", "one"));
   write_file_atomically(path, "two", true);
-  EXPECT_TRUE(file_has_content(path, "two"));
+  EXPECT_TRUE(OutputFolder::of(path).has("a.bvh", "two"));
+  EXPECT_FALSE(OutputFolder::of(path).has("a.bvh", "tw"));
+  EXPECT_FALSE(OutputFolder::of(path).has("a.bvh", "twofold"));
   EXPECT_EQ(entries(), 1U) << "a temporary file was left";
 }
 
@@ -71,9 +73,31 @@ TEST_F(OutputFile, LeavesDevicesAndFoldersAlone) {
 TEST_F(OutputFile, DoesNotFollowLinksOutOfTheFolder) {
   fs::create_directory(folder_ / "real");
   fs::create_directory_symlink("/tmp", folder_ / "link");
-  EXPECT_NO_THROW(refuse_links_below(folder_, "real/new/a.bvh"));
-  EXPECT_THROW(refuse_links_below(folder_, "link/a.bvh"), Error);
-  EXPECT_THROW(refuse_links_below(folder_, "link/new/a.bvh"), Error);
+  OutputFolder::below(folder_, "real/new/a.bvh").write("a.bvh", "x", false);
+  EXPECT_TRUE(fs::exists(folder_ / "real/new/a.bvh"));
+  EXPECT_THROW(OutputFolder::below(folder_, "link/a.bvh"), FileError);
+  EXPECT_THROW(OutputFolder::below(folder_, "link/new/a.bvh"), FileError);
+  EXPECT_THROW(OutputFolder::below(folder_, "real/new/a.bvh/b.bvh"), FileError);
+}
+
+TEST_F(OutputFile, ALinkThatComesBetweenLeadsNowhereElse) {
+  const fs::path elsewhere = folder_ / "elsewhere", inside = folder_ / "out" / "sub";
+  fs::create_directories(elsewhere);
+  const OutputFolder folder = OutputFolder::below(folder_ / "out", "sub/a.bvh");
+  fs::rename(inside, folder_ / "moved");
+  fs::create_directory_symlink(elsewhere, inside);
+  folder.write("a.bvh", "x", false);
+  EXPECT_TRUE(fs::is_empty(elsewhere));
+  EXPECT_TRUE(fs::exists(folder_ / "moved" / "a.bvh"));
+}
+
+TEST_F(OutputFile, AnArchiveIsNotReplacedUnderAnyName) {
+  write_file_atomically(folder_ / "lib.rpz", "archive", false);
+  fs::create_hard_link(folder_ / "lib.rpz", folder_ / "other.bvh");
+  fs::create_symlink("lib.rpz", folder_ / "link.bvh");
+  for (const char* name : {"lib.rpz", "other.bvh", "link.bvh"})
+    EXPECT_THROW(refuse_archive(folder_ / name, folder_ / "lib.rpz"), FileError) << name;
+  EXPECT_NO_THROW(refuse_archive(folder_ / "new.bvh", folder_ / "lib.rpz"));
 }
 
 }  // namespace

@@ -6,10 +6,11 @@
 
 namespace reprise {
 
-/// Changes a byte, cuts, repeats a part, or puts bytes in. An edit takes 4 to 20 bytes of the
-/// input.
+/// Cuts, takes a part out, puts bytes in, or writes over some. Something is always changed. An edit
+/// takes 4 to 20 bytes of the input.
 template <class Bytes>
 void edit(Bytes& bytes, FuzzInput& input) {
+  const Bytes before = bytes;
   const std::size_t what = input.choice(8);
   const auto at = static_cast<std::ptrdiff_t>(bytes.empty() ? 0 : input.number(3) % bytes.size());
   const std::size_t left = bytes.size() - static_cast<std::size_t>(at);
@@ -31,6 +32,13 @@ void edit(Bytes& bytes, FuzzInput& input) {
       const std::vector<std::uint8_t> over = input.bytes(what - 2);
       std::copy_n(over.begin(), std::min(over.size(), left), bytes.begin() + at);
     }
+  }
+  if (bytes != before) return;
+  if (bytes.empty()) {
+    bytes.push_back(1);
+  } else {
+    auto& changed = bytes[static_cast<std::size_t>(at)];
+    changed = static_cast<typename Bytes::value_type>(changed ^ 1);
   }
 }
 

@@ -13,6 +13,19 @@ namespace {
 
 double real(FuzzInput& input) { return std::bit_cast<double>(input.number(8)); }
 
+/// A number in place of another one; what was meant to be changed is.
+template <class Number>
+void change(Number& number, Number to) {
+  number = to == number ? number + 1 : to;
+}
+
+/// One of the kinds from 1 to `count`, but not this one.
+template <class Kind>
+void change_kind(Kind& kind, std::size_t count, FuzzInput& input) {
+  const auto now = static_cast<std::size_t>(kind) - 1;
+  kind = static_cast<Kind>(1 + (now + 1 + input.choice(count - 1)) % count);
+}
+
 void edit_take(TakeRecord& take, FuzzInput& input) {
   LayerRecord& layer = take.layers[input.choice(take.layers.size())];
   switch (input.choice(7)) {
@@ -20,19 +33,20 @@ void edit_take(TakeRecord& take, FuzzInput& input) {
       edit(layer.data, input);
       break;
     case 1:
-      layer.kind = static_cast<LayerKind>(1 + input.choice(4));
+      change_kind(layer.kind, 4, input);
       break;
     case 2:
-      layer.limit_mm = real(input);
+      change(layer.limit_mm, real(input));
       break;
     case 3:
-      take.info.frames = static_cast<long>(input.number(4));
+      change(take.info.frames, static_cast<long>(input.number(4)));
       break;
     case 4:
-      take.info.text_bytes = input.number(6);
+      change(take.info.text_bytes, input.number(6));
       break;
     case 5:
-      take.info.fidelity = {static_cast<FidelityTier>(input.number(1)), real(input)};
+      take.info.fidelity.tier = static_cast<FidelityTier>(input.number(1));
+      change(take.info.fidelity.limit_mm, real(input));
       break;
     default:
       edit(take.error_quantiles, input);
@@ -49,10 +63,10 @@ void edit_proportions(Forged& forged, FuzzInput& input) {
       edit(record.asf_name, input);
       break;
     case 2:
-      record.frame_rate = real(input);
+      change(record.frame_rate, real(input));
       break;
     case 3:
-      record.millimetres_per_unit = real(input);
+      change(record.millimetres_per_unit, real(input));
       break;
     case 4:
       record.up = static_cast<UpAxis>(input.number(1));
@@ -66,16 +80,20 @@ void edit_clips(std::vector<ClipRecord>& clips, FuzzInput& input) {
   ClipRecord& clip = clips[input.choice(clips.size())];
   switch (input.choice(4)) {
     case 0:
-      clip.frames = static_cast<long>(input.number(2));
-      break;
+      // The last one has what is left.
+      if (&clip != &clips.back()) {
+        change(clip.frames, static_cast<long>(input.number(2)));
+        break;
+      }
+      [[fallthrough]];
     case 1:
-      clip.group = static_cast<std::int64_t>(input.number(7));
+      change(clip.group, static_cast<std::int64_t>(input.number(7)));
       break;
     case 2:
-      clip.kind = static_cast<ClipKind>(1 + input.choice(3));
+      change_kind(clip.kind, 3, input);
       break;
     default:
-      clips.push_back(clip);
+      clips.push_back(ClipRecord(clip));
   }
 }
 
@@ -118,7 +136,9 @@ void edit(Forged& forged, FuzzInput& input) {
     case 1:
       return edit_proportions(forged, input);
     case 2:
-      return edit(forged.space.data, input);
+      // A take whose channels are coded as they are has no axes.
+      if (forged.take.space != 0) return edit(forged.space.data, input);
+      return edit_take(forged.take, input);
     default:
       edit_clips(forged.clips, input);
   }

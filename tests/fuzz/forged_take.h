@@ -17,7 +17,7 @@ struct Forged {
   std::vector<ClipRecord> clips;
 };
 
-/// Changes one of its parts. An edit takes a few bytes of the input.
+/// Changes one of its parts: something is always changed. An edit takes a few bytes of the input.
 void edit(Forged& forged, FuzzInput& input);
 
 /// Makes right what the store would not take, or what would be refused for that alone: the digest

@@ -46,7 +46,7 @@ void seed_from_archive() {
   while (rows.step()) seed("block", text_of(rows.bytes()));
   for (char questions = 0; questions < static_cast<char>(question_kinds); ++questions) {
     for (const char kind : {0, 1}) {
-      seed("archive_file", std::string{questions, kind, 1, 3, 9, 0, 0, 1});
+      seed("archive_file", std::string{questions, kind, 0, 1, 3, 9, 0, 0, 1});
     }
   }
 }

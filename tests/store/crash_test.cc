@@ -1,6 +1,5 @@
 // A writer that dies leaves the archive as after one of its commits.
 #include <signal.h>
-#include <sqlite3.h>
 #include <sys/wait.h>
 
 #include "store/sample_store.h"
@@ -51,41 +50,6 @@ TEST_F(Crash, KilledWritersLeaveWholeBatches) {
     EXPECT_TRUE(store.check_structure().empty());
   }
   EXPECT_GT(stored, 0u);
-}
-
-/// A file as a writer leaves it that dies within a commit, with its journal beside it.
-void leave_unfinished(const fs::path& whole, const fs::path& left) {
-  sqlite3* writer = nullptr;
-  ASSERT_EQ(sqlite3_open(whole.c_str(), &writer), SQLITE_OK);
-  const char* change =
-      "PRAGMA cache_size=1; BEGIN IMMEDIATE; UPDATE blocks SET data=zeroblob(length(data)), "
-      "takes=zeroblob(length(takes)); UPDATE spaces SET data=zeroblob(length(data))";
-  ASSERT_EQ(sqlite3_exec(writer, change, nullptr, nullptr, nullptr), SQLITE_OK);
-  fs::copy_file(whole, left);
-  fs::copy_file(whole.string() + "-journal", left.string() + "-journal");
-  sqlite3_close_v2(writer);
-}
-
-TEST_F(Crash, WhatIsLeftUnfinishedIsTakenBackThroughALink) {
-  {
-    ArchiveStore store = ArchiveStore::open_for_writing(path_);
-    store.begin();
-    const Ground ground = lay_ground(store);
-    for (int i = 0; i < 40; ++i) add_sample(store, ground, i);
-    store.commit();
-  }
-  fs::path left = path_, link = path_;
-  left += ".left";
-  link += ".link";
-  leave_unfinished(path_, left);
-  fs::create_symlink(left, link);
-  {
-    const ArchiveStore store = ArchiveStore::open_for_reading(link);
-    EXPECT_EQ(store.takes({}).size(), 40u);
-    EXPECT_TRUE(store.check_structure().empty());
-  }
-  EXPECT_FALSE(fs::exists(left.string() + "-journal"));
-  for (const fs::path& file : {left, link}) fs::remove(file);
 }
 
 }  // namespace

@@ -76,6 +76,13 @@ TEST_F(WaitingTest, CompactingTellsThatItWaitsForReadersAlone) {
   EXPECT_FALSE(told);
 }
 
+TEST_F(WaitingTest, WhatAWriterLeftThatDiedWhileItMadeAnArchiveIsTakenAway) {
+  for (const char* end : {"", "-journal"})
+    write_bytes(path_.string() + ".new-0123456789abcdef" + end, "a part of an archive");
+  make_sample(path_, 1);
+  for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_EQ(entry.path(), path_);
+}
+
 // As `mktemp` leaves one.
 TEST_F(WaitingTest, AnEmptyFileBecomesAnArchiveForOneWriterAndStays) {
   std::ofstream(path_).close();
