@@ -69,14 +69,17 @@ MemberLimit group_limit(const PostureLibrary& library, const Occurrence& clip,
       [&, share](std::size_t take) { return share * member_limit(library, clip, take, constants); };
 }
 
+float asked_limit(float usual, float widest, const RepeatConstants& constants) {
+  return std::max(usual, std::min(widest, constants.asked_share * usual));
+}
+
 MemberLimit asked_limit(const PostureLibrary& library, const Occurrence& clip,
                         const RepeatConstants& constants) {
   return [&](std::size_t take) {
     const float widest = library.of_one_subject(clip.take, take)
                              ? constants.member_mm
                              : constants.across_subjects * constants.member_mm;
-    const float usual = member_limit(library, clip, take, constants);
-    return std::max(usual, std::min(widest, constants.asked_share * usual));
+    return asked_limit(member_limit(library, clip, take, constants), widest, constants);
   };
 }
 

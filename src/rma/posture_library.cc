@@ -1,7 +1,6 @@
 #include "rma/posture_library.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "rma/posture_reach.h"
@@ -20,16 +19,12 @@ PostureLibrary::PostureLibrary(std::vector<PostureMatrix> takes, const RepeatCon
 }
 
 void PostureLibrary::follow_reach(const RepeatConstants& constants, unsigned jobs) {
-  constexpr float least_mm = 1;  // distances are divided by it
   const auto reaches = posture_reaches(projected, constants.reach_part, jobs);
   for (std::size_t take = 0; take < takes(); ++take) {
     for (std::size_t s = 0; s < reaches[take].size(); ++s) {
-      const float times = reaches[take][s] / constants.reach_mm;
-      const float in_proportion = constants.similar_mm * times;
-      const float far = constants.similar_mm * std::pow(times, constants.far_reach_power);
-      similar_mm[take][s] = std::max(least_mm, std::min(in_proportion, far));
-      similar_across_mm[take][s] =
-          std::max(least_mm, std::min(in_proportion, constants.across_subjects * far));
+      const float reach = reaches[take][s];
+      similar_mm[take][s] = similar_at_reach(reach, constants);
+      similar_across_mm[take][s] = similar_at_reach(reach, constants, constants.across_subjects);
     }
   }
 }
