@@ -1,7 +1,6 @@
 // Why motions of a take count as repeated: its self-distance plot with paths, behaviours and clips.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "reprise/archive.h"
@@ -20,19 +19,13 @@ struct SelfDistance {
     double end = 0;
     int group = 0;  ///< from 1 on; parts of one group are one behaviour
   };
-  struct Clip {
-    double start = 0;
-    double end = 0;
-    ClipKind kind = ClipKind::unique;
-    std::optional<std::size_t> primary;  ///< of a repeated clip: index of its primary in `clips`
-  };
 
   double rate = 0;                 ///< samples a second
   long samples = 0;                ///< the plot has samples x samples pixels
   std::vector<float> distance_mm;  ///< row after row: root mean square of joints, on leading axes
   std::vector<std::vector<Pixel>> paths;  ///< similar-posture paths of the half where y > x
   std::vector<Behaviour> behaviours;      ///< they follow one another
-  std::vector<Clip> clips;                ///< they follow one another
+  std::vector<ClipInfo> clips;            ///< those of the archive; they follow one another
 };
 
 /// Compares a stored take with itself. Long takes are sampled less often, so that the plot has at

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
-#include <set>
 
 #include "archive/behaviour_plan.h"
 #include "archive/parallel.h"
@@ -13,18 +13,6 @@
 
 namespace reprise {
 namespace {
-
-RepeatConstants repeat_constants(const ClipPlanConstants& plan) {
-  RepeatConstants constants;
-  constants.rate = plan.rate;
-  constants.least_clip_s = plan.least_clip_s;
-  constants.explained_cover = plan.explained_cover;
-  constants.explained_times = 1;
-  constants.least_near_per_s = 0;  // windows are few here
-  constants.next_near_s = 0;
-  constants.across_subjects = plan.across_subjects;
-  return constants;
-}
 
 /// Samples of a take as frames: the first and the last sample are where the take begins and ends.
 long frame_at(long sample, long samples, const TakeOutline& take, double rate) {
@@ -38,30 +26,23 @@ class SkeletonPlanner {
  public:
   SkeletonPlanner(std::vector<StoredMotion> stored, std::vector<const FreshTake*> fresh,
                   const ClipPlanConstants& constants, unsigned jobs)
-      : stored_(std::move(stored)),
-        fresh_(std::move(fresh)),
-        constants_(constants),
-        repeats_(repeat_constants(constants)),
-        jobs_(jobs) {}
+      : stored_(std::move(stored)), fresh_(std::move(fresh)), constants_(constants), jobs_(jobs) {}
 
   /// `bodies` of the new takes, in their order. Groups are counted from `next_group` on.
   void plan(std::vector<MovingBody> bodies, std::int64_t& next_group, ClipPlan& plan) {
     std::vector<PostureMatrix> postures;
     std::vector<double> sizes;
-    std::vector<std::string> subjects;
     for (StoredMotion& motion : stored_) {
       postures.push_back(std::move(motion.body.postures));
       sizes.push_back(motion.body.size);
-      subjects.push_back(motion.take.subject);
     }
     for (std::size_t take = 0; take < bodies.size(); ++take) {
       postures.push_back(std::move(bodies[take].postures));
       sizes.push_back(bodies[take].size);
-      subjects.push_back(fresh_[take]->outline.subject);
     }
     bring_to_median_size(postures, sizes);
     library_ = PostureLibrary(std::move(postures), repeats_);
-    library_.subjects = std::move(subjects);
+    library_.follow_reach(repeats_, jobs_);
     choose();
     divide();
     assign_groups(next_group);
@@ -71,36 +52,43 @@ class SkeletonPlanner {
  private:
   bool is_new(std::size_t take) const { return take >= stored_.size(); }
 
-  /// Stored clips as samples; the last one ends where the take does.
+  /// Stored clips as samples; the last one ends where the take does. The primary of a repeated one
+  /// whose primary is in none of the takes is itself.
   std::vector<ChosenClip> standing_clips() const {
     std::vector<ChosenClip> standing;
+    std::map<ClipId, std::size_t> primaries;
     for (std::size_t take = 0; take < stored_.size(); ++take) {
       const StoredMotion& motion = stored_[take];
       const long rows = library_.postures[take].rows();
       for (const ClipInfo& clip : motion.clips) {
         const bool last = &clip == &motion.clips.back();
         const auto sample = [&](double seconds) {
-          return std::clamp(std::lround(seconds * constants_.rate), 0L, rows);
+          return std::clamp(std::lround(seconds * repeats_.rate), 0L, rows);
         };
         const ClipRole role = clip.kind == ClipKind::primary    ? ClipRole::primary
                               : clip.kind == ClipKind::repeated ? ClipRole::repeated
                                                                 : ClipRole::unique;
+        if (role == ClipRole::primary) primaries.emplace(clip.id, standing.size());
         standing.push_back(
             {take, sample(clip.start), last ? rows : sample(clip.end), role, standing.size(), {}});
+      }
+    }
+    std::size_t next = 0;
+    for (const StoredMotion& motion : stored_) {
+      for (const ClipInfo& clip : motion.clips) {
+        ChosenClip& chosen = standing[next++];
+        const auto primary = primaries.find(clip.primary);
+        if (chosen.role == ClipRole::repeated && primary != primaries.end())
+          chosen.primary = primary->second;
       }
     }
     return standing;
   }
 
   void choose() {
-    NearWindowConstants windows;
-    windows.neighbours = constants_.neighbours;
-    windows.hop_s = constants_.hop_s;
-    windows.excess = 1;
-    windows.most_looks = constants_.most_looks;
-    const auto pairs = find_near_pairs(library_, repeats_, std::nullopt, jobs_, windows);
+    const auto pairs = find_near_pairs(library_, repeats_, std::nullopt, jobs_);
     const std::vector<ChosenClip> standing = standing_clips();
-    const long least = std::lround(constants_.least_clip_s * constants_.rate);
+    const long least = std::lround(repeats_.least_clip_s * repeats_.rate);
     std::vector<Occurrence> references;
     for (const ChosenClip& clip : standing) {
       if (clip.role != ClipRole::repeated && clip.end - clip.begin >= least)
@@ -111,17 +99,17 @@ class SkeletonPlanner {
                       std::back_inserter(groups));
     ClipChoiceConstants choice;
     choice.least_s = constants_.least_rest_s;
-    choice.least_repeated_s = constants_.least_clip_s;
-    choice.least_primary_s = constants_.least_clip_s;
+    choice.least_repeated_s = repeats_.least_clip_s;
+    choice.least_primary_s = repeats_.least_clip_s;
     clips_ = choose_clips(library_, groups, repeats_, choice, standing);
   }
 
   /// Cuts unique clips of new takes where behaviours meet. Others keep together what recurs.
   void divide() {
-    const long least = std::lround(constants_.least_clip_s * constants_.rate);
+    const long least = std::lround(constants_.least_part_s * repeats_.rate);
     cuts_.resize(library_.takes());
     for (std::size_t take = stored_.size(); take < library_.takes(); ++take)
-      cuts_[take] = behaviour_cuts(library_.projected[take], constants_.rate);
+      cuts_[take] = behaviour_cuts(library_.projected[take], repeats_.rate);
     std::vector<ChosenClip> divided;
     std::vector<std::size_t> place(clips_.size());
     for (std::size_t c = 0; c < clips_.size(); ++c) {
@@ -162,8 +150,8 @@ class SkeletonPlanner {
       const TakeOutline& take = fresh_[clip.take - stored_.size()]->outline;
       const long rows = library_.postures[clip.take].rows();
       PlannedClip planned;
-      planned.first_frame = frame_at(clip.begin, rows, take, constants_.rate);
-      planned.frames = frame_at(clip.end, rows, take, constants_.rate) - planned.first_frame;
+      planned.first_frame = frame_at(clip.begin, rows, take, repeats_.rate);
+      planned.frames = frame_at(clip.end, rows, take, repeats_.rate) - planned.first_frame;
       planned.group = groups_[c];
       planned.kind = clip.role == ClipRole::primary    ? ClipKind::primary
                      : clip.role == ClipRole::repeated ? ClipKind::repeated
@@ -191,6 +179,7 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
                     const IngestOptions& options,
                     const std::function<void(const std::string&)>& tick) {
   const ClipPlanConstants constants;
+  const RepeatConstants repeats;
   StoredMotionReader stored(archive, takes);
   std::int64_t next_group = stored.greatest_group() + 1;
   // Skeletons in the order of their first takes.
@@ -209,7 +198,7 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
     produce_in_order(
         fresh.size(), options.jobs,
         [&](std::size_t i) {
-          return moving_body(read_again(*fresh[i], options.read), root, constants.rate);
+          return moving_body(read_again(*fresh[i], options.read), root, repeats.rate);
         },
         [&](std::size_t i, MovingBody own) {
           bodies.push_back(std::move(own));
@@ -217,7 +206,7 @@ ClipPlan plan_clips(const std::filesystem::path& archive, const std::vector<Fres
         });
     const std::size_t most_stored =
         std::min(constants.most_stored_takes, constants.stored_takes_per_new * fresh.size());
-    SkeletonPlanner planner(stored.motions(skeleton, root, constants.rate, most_stored), fresh,
+    SkeletonPlanner planner(stored.motions(skeleton, root, repeats.rate, most_stored), fresh,
                             constants, options.jobs);
     planner.plan(std::move(bodies), next_group, plan);
   }

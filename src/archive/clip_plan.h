@@ -11,25 +11,13 @@
 
 namespace reprise {
 
+/// Repeats are those that `repeats` tells (RepeatConstants, NearWindowConstants); this is what is
+/// made of them.
 struct ClipPlanConstants {
-  /// Postures a second. Slower than where repeats are asked for: every take is looked at here.
-  double rate = 10;
-  /// The shortest primary and repeated clip (s), and what is shorter than the other joins the clip
-  /// beside it (s). lin-2011 section 4.2 has 0.6 s of a path, which is 0.3 s of a take, and 0.2 s;
-  /// there, what clips take would be a tenth of an archive
-  /// (docs/findings/2026-11-25-behaviours.md).
-  double least_clip_s = 1.5;
-  double least_rest_s = 0.5;
-  /// As RepeatConstants::across_subjects. Wider: a primary's repeats cannot lead on to others.
-  float across_subjects = 1.75F;
-  /// Windows for candidates: how many neighbours each looks for, and how far they are apart (s).
-  std::size_t neighbours = 6;
-  double hop_s = 0.5;
-  /// As NearWindowConstants::most_looks. An archive of 989 takes is the same without a limit; where
-  /// thousands of windows are equal, or noise, it is what keeps the cost of a take.
-  long most_looks = 1000;
-  /// No repeats are looked for around a clip of which this part is explained by others.
-  double explained_cover = 0.5;
+  /// Unique clips shorter than this join the repeated clip beside them (s). lin-2011 section 4.2.
+  double least_rest_s = 0.2;
+  /// The shortest part of a unique clip that is cut where behaviours meet (s).
+  double least_part_s = 1.5;
   /// Stored takes that new ones are compared with, in all and for each of them, so that few new
   /// ones cost little; those with primaries come first.
   std::size_t most_stored_takes = 256;

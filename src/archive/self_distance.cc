@@ -6,7 +6,6 @@
 #include "archive/space_training.h"
 #include "rma/behaviour_groups.h"
 #include "rma/behaviour_segments.h"
-#include "rma/clip_choice.h"
 #include "rma/clip_extents.h"
 #include "rma/self_distance_plot.h"
 
@@ -14,18 +13,6 @@ namespace reprise {
 namespace {
 
 constexpr double most_samples = 2000;
-
-ClipKind kind_of(ClipRole role) {
-  switch (role) {
-    case ClipRole::primary:
-      return ClipKind::primary;
-    case ClipRole::repeated:
-      return ClipKind::repeated;
-    case ClipRole::unique:
-      break;
-  }
-  return ClipKind::unique;
-}
 
 std::vector<SelfDistance::Behaviour> behaviours_of(const PostureMatrix& projected, double rate) {
   std::vector<long> borders = behaviour_cuts(projected, rate);
@@ -44,18 +31,11 @@ std::vector<SelfDistance::Behaviour> behaviours_of(const PostureMatrix& projecte
   return behaviours;
 }
 
-std::vector<SelfDistance::Clip> clips_of(const PostureLibrary& library,
-                                         const std::vector<NearPair>& minima,
-                                         const RepeatConstants& constants) {
-  const auto groups = find_repeat_groups(library, minima, std::nullopt, constants);
-  std::vector<SelfDistance::Clip> clips;
-  for (const ChosenClip& chosen : choose_clips(library, groups, constants)) {
-    SelfDistance::Clip clip{static_cast<double>(chosen.begin) / constants.rate,
-                            static_cast<double>(chosen.end) / constants.rate, kind_of(chosen.role),
-                            std::nullopt};
-    if (chosen.role == ClipRole::repeated) clip.primary = chosen.primary;
-    clips.push_back(clip);
-  }
+std::vector<ClipInfo> clips_of(const Archive& archive, const TakeInfo& take) {
+  TakeFilter filter;
+  filter.take = take.name;
+  std::vector<ClipInfo> clips = archive.clips(filter);
+  std::erase_if(clips, [&](const ClipInfo& clip) { return clip.take != take.name; });
   return clips;
 }
 
@@ -64,10 +44,7 @@ std::vector<SelfDistance::Clip> clips_of(const PostureLibrary& library,
 SelfDistance self_distance(const Archive& archive, const TakeInfo& info) {
   const Take take = archive.extract(info, FidelityTier::preview);
   RepeatConstants constants;
-  constants.explained_cover = 2;  // clips are chosen from all groups
-  constants.short_share = 1;
-  constants.least_near_per_s = 0;  // near pairs are minima of the plot, not windows
-  constants.next_near_s = 0;
+  constants.next_near_s = 0;  // near pairs are minima of the plot, not windows
   constants.rate = std::min(constants.rate, most_samples / std::max(take.seconds(), 1.0));
   const LayoutChoices layout = choose_layout(*take.skeleton, layout_evidence(prepare_take(take)));
   const PostureLibrary library(
@@ -85,10 +62,9 @@ SelfDistance self_distance(const Archive& archive, const TakeInfo& info) {
     for (const PlotPixel& pixel : traced.path.pixels) path.push_back({pixel.x, pixel.y});
   }
   plot.behaviours = behaviours_of(projected, constants.rate);
-  plot.clips = clips_of(library, minima, constants);
+  plot.clips = clips_of(archive, info);
   // The last sample stands for what is left of the take.
   plot.behaviours.back().end = take.seconds();
-  plot.clips.back().end = take.seconds();
   return plot;
 }
 

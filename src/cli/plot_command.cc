@@ -15,12 +15,10 @@ using enum Table::Align;
 
 std::string clips_table(const SelfDistance& plot, bool bold) {
   Table table(
-      {{"CLIP", right}, {"KIND", left}, {"START", right}, {"END", right}, {"PRIMARY", right}});
-  for (std::size_t c = 0; c < plot.clips.size(); ++c) {
-    const SelfDistance::Clip& clip = plot.clips[c];
-    table.add({std::to_string(c + 1), clip_kind_name(clip.kind), format_number(clip.start, 2),
-               format_number(clip.end, 2),
-               clip.primary ? std::to_string(*clip.primary + 1) : std::string()});
+      {{"CLIP", left}, {"KIND", left}, {"START", right}, {"END", right}, {"PRIMARY", left}});
+  for (const ClipInfo& clip : plot.clips) {
+    table.add({clip.id, clip_kind_name(clip.kind), format_number(clip.start, 2),
+               format_number(clip.end, 2), clip.primary});
   }
   return table.text(bold);
 }
@@ -31,12 +29,12 @@ Json document_of(const std::string& take, const std::string& file, const SelfDis
     behaviours.push_back(
         {{"start", behaviour.start}, {"end", behaviour.end}, {"group", behaviour.group}});
   }
-  for (const SelfDistance::Clip& clip : plot.clips) {
-    Json json = {{"kind", clip_kind_name(clip.kind)}, {"start", clip.start}, {"end", clip.end}};
-    if (clip.primary) {
-      json["primary"] = {{"start", plot.clips[*clip.primary].start},
-                         {"end", plot.clips[*clip.primary].end}};
-    }
+  for (const ClipInfo& clip : plot.clips) {
+    Json json = {{"id", clip.id},
+                 {"kind", clip_kind_name(clip.kind)},
+                 {"start", clip.start},
+                 {"end", clip.end}};
+    if (!clip.primary.empty()) json["primary"] = clip.primary;
     clips.push_back(json);
   }
   return {{"take", take},

@@ -47,7 +47,7 @@ std::string png_of(const SelfDistance& plot) {
     canvas.fill(column(b.start), column(b.end) - 1, behaviours_at, behaviours_at + strip,
                 ink::behaviour + (b.group - 1) % ink::behaviours);
   }
-  for (const SelfDistance::Clip& clip : plot.clips) {
+  for (const ClipInfo& clip : plot.clips) {
     canvas.fill(column(clip.start), column(clip.end) - 1, clips_at, clips_at + strip,
                 colour_of(clip.kind));
   }

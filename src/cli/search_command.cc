@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/interruption.h"
 #include "cli/intervals.h"
 #include "cli/motion_input.h"
@@ -29,6 +31,9 @@ Take read_example(const std::filesystem::path& path, const ReadOptions& options,
   return take;
 }
 
+/// What parts repeats of the example from the rest.
+constexpr const char* rest_line = "--- like the example, but no repeats of it; by unlikeness ---\n";
+
 std::string results_table(const std::vector<SearchResult>& results, bool bold) {
   using enum Table::Align;
   Table table({{"TAKE", left},
@@ -36,13 +41,29 @@ std::string results_table(const std::vector<SearchResult>& results, bool bold) {
                {"START", right},
                {"END", right},
                {"DISTANCE MM", right},
-               {"UNLIKENESS", right}});  // which they are ordered by
+               {"UNLIKENESS", right}});  // repeats are ordered by distance, the rest by this
   for (const SearchResult& result : results) {
     table.add({result.take, result.subject, format_number(result.start, 2),
                format_number(result.end, 2), format_number(result.distance_mm, 1),
                format_number(result.unlikeness, 1)});
   }
-  return table.text(bold);
+  std::string text = table.text(bold);
+  const auto repeats =
+      static_cast<std::size_t>(std::ranges::count(results, true, &SearchResult::repeat));
+  if (repeats == results.size()) return text;
+  std::size_t at = 0;  // behind the headings and the repeats
+  for (std::size_t line = 0; line <= repeats; ++line) at = text.find('\n', at) + 1;
+  return text.insert(at, rest_line);
+}
+
+/// A sentence where nothing is near; else empty.
+std::string nothing_near(const std::vector<SearchResult>& results) {
+  if (results.empty() || std::ranges::any_of(results, &SearchResult::repeat)) return {};
+  const double nearest =
+      std::ranges::min_element(results, {}, &SearchResult::distance_mm)->distance_mm;
+  return fmt::format(
+      "nothing repeats the example; the nearest of what is most like it is {:.1f} mm away",
+      nearest);
 }
 
 std::string nothing_found(const SearchOptions& options) {
@@ -61,7 +82,8 @@ Json document_of(const std::vector<SearchResult>& results) {
                        {"start", result.start},
                        {"end", result.end},
                        {"distance_mm", result.distance_mm},
-                       {"unlikeness", result.unlikeness}});
+                       {"unlikeness", result.unlikeness},
+                       {"repeat", result.repeat}});
   }
   return {{"results", entries}};
 }
@@ -149,6 +171,8 @@ ExitCode SearchCommand::run(Console& console) {
   const std::vector<SearchResult> results =
       selection ? search->like(selection->take, options_) : search->like(*example, options_);
   if (results.empty()) console.message(nothing_found(options_));
+  if (const std::string sentence = nothing_near(results); !sentence.empty())
+    console.message(sentence);
   console.result(results_table(results, console.bold_results()));
   console.document(document_of(results));
   return exit_done;

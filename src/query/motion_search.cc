@@ -8,12 +8,20 @@
 #include "query/part_search.h"
 #include "query/whole_search.h"
 #include "reprise/error.h"
+#include "rma/repeat_constants.h"
 
 namespace reprise {
 namespace {
 
 /// Stretches that are compared in full for each search; more if more are asked for.
 constexpr std::size_t least_compared = 300;
+/// A repeat is as near as what `repeats` tells (LibraryReach::repeat_limit), at no more than so
+/// many times another speed, and within this part of the size of either motion: what hardly moves
+/// is near to all else that hardly moves. Takes and parts that are as unlike as this (mm) do other
+/// things with the same postures. Measured (docs/findings/2026-12-01-one-meaning-of-repeated.md).
+constexpr double repeat_speed = RepeatConstants::steepest;
+constexpr double repeat_part_of_size = 0.45;
+constexpr double repeat_unlikeness = 200;
 /// A take longer than this many times the example is searched for parts.
 constexpr double longest_whole = 2.0;
 
@@ -37,6 +45,8 @@ struct MotionSearch::Impl {
                              const SearchOptions& options) const;
   std::vector<Match> matches_of(PlanGroup& group, const Example& example,
                                 const std::vector<bool>& accept, std::size_t count) const;
+  /// Says which matches repeat the example, and how far these are from it.
+  void find_repeats(PlanGroup& group, const Example& example, std::vector<Match>& matches) const;
   std::vector<SearchResult> search(const Example& example, const SearchOptions& options);
 };
 
@@ -79,6 +89,25 @@ std::vector<Match> MotionSearch::Impl::matches_of(PlanGroup& group, const Exampl
   return matches;
 }
 
+void MotionSearch::Impl::find_repeats(PlanGroup& group, const Example& example,
+                                      std::vector<Match>& matches) const {
+  if (!group.reach) group.reach.emplace(tracks_of(takes, group));
+  const double seconds = example.stretch.seconds();
+  const double size = motion_size(*example.track, example.stretch);
+  const double limit = std::min(group.reach->repeat_limit(*example.track, example.stretch),
+                                repeat_part_of_size * size);
+  for (Match& match : matches) {
+    const PostureTrack& track = takes[match.take].track;
+    const double other = match.stretch.seconds();
+    const bool in_longer = example.whole && other < whole_of(track).seconds();
+    const bool other_speed = std::max(seconds, other) > repeat_speed * std::min(seconds, other);
+    if (other_speed || (!in_longer && match.unlikeness > repeat_unlikeness)) continue;
+    match.distance_mm = mean_joint_distance(*example.track, example.stretch, track, match.stretch);
+    match.repeat = match.distance_mm <= limit &&
+                   match.distance_mm <= repeat_part_of_size * motion_size(track, match.stretch);
+  }
+}
+
 std::vector<SearchResult> MotionSearch::Impl::search(const Example& example,
                                                      const SearchOptions& options) {
   const auto known = groups.find(example.track->plan.id);
@@ -87,7 +116,8 @@ std::vector<SearchResult> MotionSearch::Impl::search(const Example& example,
   const std::vector<bool> accept = accepted(group, example, options);
   std::vector<Match> matches =
       matches_of(group, example, accept, std::max(least_compared, options.top));
-  std::ranges::sort(matches, better);
+  find_repeats(group, example, matches);
+  std::ranges::sort(matches, comes_before);
   std::vector<SearchResult> results;
   std::map<std::size_t, std::vector<Stretch>> found;
   for (const Match& match : matches) {
@@ -99,12 +129,13 @@ std::vector<SearchResult> MotionSearch::Impl::search(const Example& example,
     };
     if (std::ranges::any_of(others, covers)) continue;
     const LibraryTake& take = takes[match.take];
-    const double distance =
-        mean_joint_distance(*example.track, example.stretch, take.track, match.stretch);
+    const double distance = match.distance_mm ? *match.distance_mm
+                                              : mean_joint_distance(*example.track, example.stretch,
+                                                                    take.track, match.stretch);
     if (options.limit_mm && distance > *options.limit_mm) continue;
     others.push_back(match.stretch);
     results.push_back({take.name, take.subject, match.stretch.begin, told_end(take, match.stretch),
-                       distance, match.unlikeness});
+                       distance, match.unlikeness, match.repeat});
   }
   return results;
 }

@@ -84,6 +84,16 @@ std::vector<NearPair> nearest_first(std::vector<RankedPair> ranked) {
   return pairs;
 }
 
+/// How far a window's neighbours may be (mm): NearWindowConstants::most_mm, or more in proportion
+/// where more is similar.
+float near_limit(const PostureLibrary& library, const Window& window,
+                 const RepeatConstants& repeats, const NearWindowConstants& constants) {
+  const std::vector<float>& similar = library.similar_mm[window.take];
+  const auto sample = static_cast<std::size_t>(std::lround(window.centre));
+  const float similar_mm = similar[std::min(sample, similar.size() - 1)];
+  return constants.most_mm * std::max(1.0F, similar_mm / repeats.similar_mm);
+}
+
 NearPair ordered_pair(const Window& a, const Window& b) {
   const NearPair pair{
       static_cast<std::uint32_t>(a.take), static_cast<std::int32_t>(std::lround(a.centre)),
@@ -105,8 +115,7 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
   const WindowIndex index(PointMatrix(own.points * axes));
   const std::size_t neighbours =
       only_take ? constants.neighbours_of_one_take : constants.neighbours;
-  const float across_mm = std::max(1.0F, repeats.across_subjects) * constants.most_mm;
-  const float greatest_mm = library.subjects.empty() ? constants.most_mm : across_mm;
+  const float across = library.subjects.empty() ? 1.0F : std::max(1.0F, repeats.across_subjects);
   std::vector<RankedPair> ranked;
   for (const double tempo : tempos) {
     const double asked_span = span / tempo, least_lag = std::max(span, asked_span);
@@ -118,13 +127,14 @@ std::vector<NearPair> find_near_pairs(const PostureLibrary& library, const Repea
       for (std::size_t w = b * block; w < std::min(count, (b + 1) * block); ++w) {
         const std::span<const float> point(points.row(static_cast<long>(w)).data(),
                                            static_cast<std::size_t>(points.cols()));
-        for (const Neighbour& near : index.nearly_nearest(point, neighbours, greatest_mm,
+        const Window& window = asked.windows[w];
+        const float most_mm = near_limit(library, window, repeats, constants);
+        for (const Neighbour& near : index.nearly_nearest(point, neighbours, across * most_mm,
                                                           constants.excess, constants.most_looks)) {
-          const Window& window = asked.windows[w];
           const Window& other = own.windows[near.point];
           const float most = library.of_one_subject(window.take, other.take)
-                                 ? constants.most_mm
-                                 : repeats.across_subjects * constants.most_mm;
+                                 ? most_mm
+                                 : repeats.across_subjects * most_mm;
           if (near.squared_distance > most * most) continue;
           const bool overlaps =
               other.take == window.take && std::abs(other.centre - window.centre) < least_lag;

@@ -27,7 +27,8 @@ struct NearWindowConstants {
   /// the library from some hundred takes on. Measured
   /// (docs/findings/2026-11-25-repeated-motion.md).
   long most_looks = 150;
-  /// and no further than this: root mean square joint distance, mm.
+  /// and no further than this (root mean square joint distance, mm), or than this in proportion
+  /// where postures further than RepeatConstants::similar_mm are similar.
   float most_mm = 70;
 };
 

@@ -86,7 +86,7 @@ void compare_part(const PartExample& part, std::size_t take, const Stretch& want
     if (example.whole) {
       difference = std::hypot(difference, part_weight * std::log(length / part.seconds));
     }
-    matches.push_back({take, stretch, difference});
+    matches.push_back({take, stretch, difference, std::nullopt, false});
   }
 }
 

@@ -18,6 +18,12 @@ bool better(const Match& a, const Match& b) {
          std::tuple(b.unlikeness, b.take, b.stretch.begin);
 }
 
+bool comes_before(const Match& a, const Match& b) {
+  if (a.repeat != b.repeat) return a.repeat;
+  if (a.repeat && a.distance_mm != b.distance_mm) return a.distance_mm < b.distance_mm;
+  return better(a, b);
+}
+
 std::vector<const PostureTrack*> tracks_of(const std::vector<LibraryTake>& library,
                                            const PlanGroup& group) {
   std::vector<const PostureTrack*> tracks;

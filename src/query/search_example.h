@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "query/candidate_windows.h"
+#include "query/library_reach.h"
 #include "query/motion_library.h"
 #include "query/take_ranking.h"
 
@@ -29,15 +30,20 @@ struct Match {
   std::size_t take = 0;  ///< of the library
   Stretch stretch;
   double unlikeness = 0;
+  std::optional<double> distance_mm{};  ///< mean_joint_distance to the example; of repeats at least
+  bool repeat = false;                  ///< near enough to be a repeat of the example
 };
-/// The order of results; equal ones are in the order of takes and times.
+/// Less unlike; equal ones are in the order of takes and times.
 bool better(const Match& a, const Match& b);
+/// The order of results: repeats by distance, then the rest by unlikeness.
+bool comes_before(const Match& a, const Match& b);
 
 /// Takes of one plan, and what is made for them when it is first needed.
 struct PlanGroup {
   std::vector<std::size_t> takes;
   std::optional<TakeRanking> ranking;
   std::optional<CandidateWindows> windows;
+  std::optional<LibraryReach> reach;
 };
 std::vector<const PostureTrack*> tracks_of(const std::vector<LibraryTake>& library,
                                            const PlanGroup& group);

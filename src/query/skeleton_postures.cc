@@ -31,7 +31,7 @@ SkeletonPostures read_postures(OpenArchive& archive, std::vector<TakeInfo> takes
   });
   std::vector<float> factors = bring_to_median_size(postures, sizes);
   PostureLibrary library(std::move(postures), constants);
-  library.narrow_to_reach(constants, jobs);
+  library.follow_reach(constants, jobs);
   return {std::move(takes), std::move(factors), std::move(library)};
 }
 

@@ -14,7 +14,7 @@ std::vector<Match> whole_matches(const std::vector<LibraryTake>& library, PlanGr
     const std::size_t take = group.takes[i];
     const Stretch stretch = whole_of(library[take].track);
     const MotionForm other = motion_form(library[take].track, stretch, samples);
-    matches.push_back({take, stretch, unlikeness(form, other, take_weights)});
+    matches.push_back({take, stretch, unlikeness(form, other, take_weights), std::nullopt, false});
   }
   return matches;
 }

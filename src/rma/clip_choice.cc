@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "rma/clip_completion.h"
 #include "rma/clip_costs.h"
 #include "rma/clip_cover.h"
 
@@ -29,7 +30,8 @@ class Chooser {
       : library_(library),
         least_(std::max(2L, std::lround(choice.least_s * constants.rate))),
         least_repeated_(std::max(2L, std::lround(choice.least_repeated_s * constants.rate))),
-        least_primary_(std::max(2L, std::lround(choice.least_primary_s * constants.rate))) {
+        least_primary_(std::max(2L, std::lround(choice.least_primary_s * constants.rate))),
+        stored_(standing.size()) {
     for (const PostureMatrix& take : library.postures) {
       free_.emplace_back(static_cast<std::size_t>(take.rows()), true);
     }
@@ -64,9 +66,10 @@ class Chooser {
     }
   }
 
-  std::vector<ChosenClip> finish() {
+  std::vector<ChosenClip> finish(std::span<const RepeatGroup> groups) {
     std::vector<long> samples;
     for (const PostureMatrix& take : library_.postures) samples.push_back(take.rows());
+    complete_clips(clips_, groups, samples, least_repeated_, stored_);
     return cover_takes(std::move(clips_), samples, least_);
   }
 
@@ -104,10 +107,8 @@ class Chooser {
       if (!clip) continue;
       const PostureMatrix& take = library_.projected[clip->take];
       const double alone = primary_cost(take, clip->begin, clip->end);
-      const double repeated = repeated_cost(take, clip->begin, clip->end, own, clip->reference);
-      if (repeated >= alone) continue;
       before += alone;
-      after += repeated;
+      after += repeated_cost(take, clip->begin, clip->end, own, clip->reference);
       samples += clip->end - clip->begin;
       proposal.repeated.push_back(std::move(*clip));
     }
@@ -166,6 +167,7 @@ class Chooser {
 
   const PostureLibrary& library_;
   long least_, least_repeated_, least_primary_;
+  std::size_t stored_;  ///< that many of the clips stand
   std::map<std::tuple<std::size_t, long, long>, std::size_t> standing_;  ///< take, begin, end
   std::vector<std::vector<bool>> free_;
   std::vector<ChosenClip> clips_;
@@ -180,7 +182,7 @@ std::vector<ChosenClip> choose_clips(const PostureLibrary& library,
                                      std::span<const ChosenClip> standing) {
   Chooser chooser(library, constants, choice, standing);
   chooser.choose(groups);
-  return chooser.finish();
+  return chooser.finish(groups);
 }
 
 }  // namespace reprise

@@ -10,20 +10,22 @@
 namespace reprise {
 
 struct ClipChoiceConstants {
-  /// A unique clip shorter than this merges with a neighbour (s), and none that repeats another is
-  /// shorter. lin-2011 section 4.2.2.
+  /// What recurs in no group and is shorter than this goes to the repeated clip beside it (s).
+  /// lin-2011 section 4.2.2.
   double least_s = 0.2;
-  double least_repeated_s = 0.2;
-  /// The shortest primary (s): below it a clip's row costs more than it can save.
+  /// The shortest primary and the shortest repeated clip (s).
+  double least_repeated_s = 0.6;
   double least_primary_s = 0.6;
 };
 
 /// Equation 5: the group with the greatest gain makes its reference a primary and its members
 /// repeated clips, as far as they are not part of a clip yet; what is left over stays for the
-/// groups after it. A primary's repeats have at least as many samples as it has. The clips of a
-/// take follow one another and cover all of it. `standing` clips cover some takes already. They
-/// stay, and come back at their place; others may repeat them, in groups around just these clips,
-/// and then a unique one becomes primary.
+/// groups after it, as long as a primary's repeats have at least as many samples as it has. What is
+/// in an occurrence of a group and in no clip then goes to one (complete_clips), so that a sample
+/// is in a primary or repeated clip where it is in an occurrence, but for rests below
+/// ClipChoiceConstants. The clips of a take follow one another and cover all of it. `standing`
+/// clips cover some takes already. They stay, and come back at their place; others may repeat them,
+/// in groups around just these clips, and then a unique one becomes primary.
 std::vector<ChosenClip> choose_clips(const PostureLibrary& library,
                                      std::span<const RepeatGroup> groups,
                                      const RepeatConstants& constants,

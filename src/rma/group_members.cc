@@ -12,10 +12,9 @@
 namespace reprise {
 namespace {
 
-/// RepeatConstants::member_mm, less where the clip's postures have to be nearer to postures of a
-/// take to be similar.
-float narrowed_member_mm(const PostureLibrary& library, const Occurrence& clip, std::size_t take,
-                         const RepeatConstants& constants) {
+/// RepeatConstants::member_mm in proportion to what is similar to the clip's postures in a take.
+float member_limit(const PostureLibrary& library, const Occurrence& clip, std::size_t take,
+                   const RepeatConstants& constants) {
   const auto similar = library.similar(clip.take, take).begin();
   const float sum = std::accumulate(similar + clip.begin, similar + clip.end, 0.0F);
   const float mean = sum / static_cast<float>(clip.end - clip.begin);
@@ -66,9 +65,12 @@ bool moves(const PostureView& clip, const RepeatConstants& constants) {
 MemberLimit group_limit(const PostureLibrary& library, const Occurrence& clip,
                         const RepeatConstants& constants) {
   const float share = length_share(clip.end - clip.begin, constants);
-  return [&, share](std::size_t take) {
-    return share * narrowed_member_mm(library, clip, take, constants);
-  };
+  return
+      [&, share](std::size_t take) { return share * member_limit(library, clip, take, constants); };
+}
+
+float asked_limit(float usual, float widest, const RepeatConstants& constants) {
+  return std::max(usual, std::min(widest, constants.asked_share * usual));
 }
 
 MemberLimit asked_limit(const PostureLibrary& library, const Occurrence& clip,
@@ -77,8 +79,7 @@ MemberLimit asked_limit(const PostureLibrary& library, const Occurrence& clip,
     const float widest = library.of_one_subject(clip.take, take)
                              ? constants.member_mm
                              : constants.across_subjects * constants.member_mm;
-    return std::min(widest,
-                    constants.asked_share * narrowed_member_mm(library, clip, take, constants));
+    return asked_limit(member_limit(library, clip, take, constants), widest, constants);
   };
 }
 

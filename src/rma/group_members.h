@@ -41,6 +41,10 @@ MemberLimit group_limit(const PostureLibrary& library, const Occurrence& clip,
 MemberLimit asked_limit(const PostureLibrary& library, const Occurrence& clip,
                         const RepeatConstants& constants);
 
+/// The same of a clip for which usually `usual` (mm) is the limit, and `widest` where nothing is
+/// narrowed.
+float asked_limit(float usual, float widest, const RepeatConstants& constants);
+
 /// What is like the clip in any of the parts, in their order, and does not overlap it. `jobs`
 /// threads, 0: one a core; results do not depend on it.
 std::vector<Occurrence> find_members(const PostureLibrary& library, const Occurrence& clip,

@@ -18,15 +18,13 @@ PostureLibrary::PostureLibrary(std::vector<PostureMatrix> takes, const RepeatCon
   }
 }
 
-void PostureLibrary::narrow_to_reach(const RepeatConstants& constants, unsigned jobs) {
-  constexpr float least_mm = 1;  // distances are divided by it
+void PostureLibrary::follow_reach(const RepeatConstants& constants, unsigned jobs) {
   const auto reaches = posture_reaches(projected, constants.reach_part, jobs);
   for (std::size_t take = 0; take < takes(); ++take) {
-    for (auto* similar : {&similar_mm[take], &similar_across_mm[take]}) {
-      for (std::size_t s = 0; s < similar->size(); ++s) {
-        (*similar)[s] =
-            std::clamp(constants.reach_share * reaches[take][s], least_mm, (*similar)[s]);
-      }
+    for (std::size_t s = 0; s < reaches[take].size(); ++s) {
+      const float reach = reaches[take][s];
+      similar_mm[take][s] = similar_at_reach(reach, constants);
+      similar_across_mm[take][s] = similar_at_reach(reach, constants, constants.across_subjects);
     }
   }
 }

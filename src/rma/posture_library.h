@@ -27,10 +27,10 @@ struct PostureLibrary {
   /// All samples have the limits of RepeatConstants.
   PostureLibrary(std::vector<PostureMatrix> takes, const RepeatConstants& constants);
 
-  /// Lowers limits to RepeatConstants::reach_share of a sample's reach (posture_reaches).
-  /// For libraries of many takes; in a single take that does one thing all is within reach. `jobs`
-  /// threads, 0: one a core.
-  void narrow_to_reach(const RepeatConstants& constants, unsigned jobs = 1);
+  /// Limits that follow each sample's reach (posture_reaches, RepeatConstants::reach_mm): what is
+  /// similar depends on how far away other motion is. For libraries of many takes; in a single take
+  /// that does one thing all is within reach. `jobs` threads, 0: one a core.
+  void follow_reach(const RepeatConstants& constants, unsigned jobs = 1);
 
   std::size_t takes() const { return postures.size(); }
   bool of_one_subject(std::size_t take, std::size_t other) const;

@@ -53,4 +53,11 @@ std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> p
   return reaches;
 }
 
+float similar_at_reach(float reach, const RepeatConstants& constants, float times) {
+  constexpr float least_mm = 1;  // distances are divided by it
+  const float part = reach / constants.reach_mm;
+  const float far = times * std::pow(part, constants.far_reach_power);
+  return std::max(least_mm, constants.similar_mm * std::min(part, far));
+}
+
 }  // namespace reprise

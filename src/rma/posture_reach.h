@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rma/postures.h"
+#include "rma/repeat_constants.h"
 
 namespace reprise {
 
@@ -14,5 +15,10 @@ namespace reprise {
 /// are postures on the axes of one PostureBasis. `jobs` threads, 0: one a core.
 std::vector<std::vector<float>> posture_reaches(std::span<const PostureMatrix> projected,
                                                 double part, unsigned jobs = 1);
+
+/// From which distance on (mm) a posture of this reach (mm) is dissimilar, in proportion to the
+/// reach and, `times` as wide, for far ones (RepeatConstants::reach_mm, far_reach_power). At
+/// least 1.
+float similar_at_reach(float reach, const RepeatConstants& constants, float times = 1);
 
 }  // namespace reprise

@@ -1,4 +1,7 @@
 // Clips and behaviour groups: what an ingest makes of takes, and what later changes make of that.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -41,6 +44,50 @@ class ClipsTest : public CommandTest {
     EXPECT_TRUE(document({"verify", archive})["ok"].get<bool>());
   }
 
+  /// Seconds by take, in steps of 1/100 s: how many are in a primary or repeated clip, how many in
+  /// an occurrence of `repeats`, and how many in one of these alone.
+  struct Recurring {
+    double clips = 0, occurrences = 0, one_alone = 0, seconds = 0;
+  };
+  Recurring recurring(const std::string& archive) const {
+    constexpr double step = 0.01;
+    std::map<std::string, std::vector<int>> steps;  // bit 1: in a clip, bit 2: in an occurrence
+    const auto mark = [&](const json& part, int bit) {
+      auto& take = steps.at(part["take"]);
+      const auto begin = static_cast<std::size_t>(std::lround(part["start"].get<double>() / step));
+      const auto end = static_cast<std::size_t>(std::lround(part["end"].get<double>() / step));
+      for (std::size_t s = begin; s < std::min(end, take.size()); ++s) take[s] |= bit;
+    };
+    const json takes = document({"list", archive}), all = clips(archive);
+    const json groups = document({"repeats", archive});
+    for (const json& take : takes["takes"])
+      steps[take["name"]].resize(
+          static_cast<std::size_t>(std::lround(take["seconds"].get<double>() / step)));
+    for (const json& clip : all) {
+      if (clip["kind"] != "unique") mark(clip, 1);
+    }
+    for (const json& group : groups["groups"]) {
+      for (const json& occurrence : group["occurrences"]) mark(occurrence, 2);
+    }
+    Recurring found;
+    for (const auto& [take, bits] : steps) {
+      found.seconds += step * static_cast<double>(bits.size());
+      for (const int bit : bits) {
+        found.clips += bit & 1 ? step : 0;
+        found.occurrences += bit & 2 ? step : 0;
+        found.one_alone += bit == 1 || bit == 2 ? step : 0;
+      }
+    }
+    return found;
+  }
+  void expect_agreement(const std::string& archive) const {
+    const Recurring found = recurring(archive);
+    EXPECT_GT(found.occurrences, 0.3 * found.seconds);
+    EXPECT_NEAR(found.clips, found.occurrences, 0.05 * found.occurrences);
+    // A repeat that is just near enough may be just too far once it is coded.
+    EXPECT_LT(found.one_alone, 0.1 * found.seconds);
+  }
+
   static std::size_t count(const json& all, const std::string& kind) {
     std::size_t found = 0;
     for (const json& clip : all) found += clip["kind"] == kind;
@@ -64,6 +111,38 @@ TEST_F(ClipsTest, TakesAreCutIntoClipsOfKindsAndGroups) {
     for (const json& number : group["clips"]) clips_of_groups += number.get<std::size_t>();
   }
   EXPECT_EQ(clips_of_groups, all.size());
+}
+
+TEST_F(ClipsTest, ClipsAndRepeatsSayTheSame) { expect_agreement("lib.rpz"); }
+
+TEST_F(ClipsTest, PrimaryAndRepeatedClipsHaveSixTenthsOfASecond) {
+  for (const json& clip : clips()) {
+    if (clip["kind"] == "unique") continue;
+    EXPECT_GE(clip["end"].get<double>() - clip["start"].get<double>(), 0.6 - 1.0 / 15) << clip;
+  }
+}
+
+TEST_F(ClipsTest, ClipsOfRealTakesAndRepeatsSayTheSame) {
+  const char* data = std::getenv("REPRISE_DATA");
+  if (data == nullptr || !fs::is_directory(data)) {
+    GTEST_SKIP() << "REPRISE_DATA names no folder of real takes";
+  }
+  for (const char* set : {"cmu-asfamc", "cmu-iclone-bvh", "bandai-namco"}) {
+    SCOPED_TRACE(set);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(data) / set)) {
+      const std::string ending = entry.path().extension();
+      if (ending == ".bvh" || ending == ".amc") files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    // Of large sets some: all would take minutes.
+    const std::size_t every = std::max<std::size_t>(1, files.size() / 200);
+    std::vector<std::string> words = {"ingest", std::string(set) + ".rpz", "--fidelity", "preview",
+                                      "--quiet"};
+    for (std::size_t i = 0; i < files.size(); i += every) words.push_back(files[i]);
+    output(words);
+    expect_agreement(std::string(set) + ".rpz");
+  }
 }
 
 TEST_F(ClipsTest, AClipIsKnownByItsId) {

@@ -44,6 +44,13 @@ TEST_F(PlotCommandTest, DrawsATake) {
   const double seconds = take["seconds"];
   expect_cover(plot["behaviours"], seconds);
   expect_cover(plot["clips"], seconds);
+  // Those that are stored.
+  const json stored = document({"list", "lib.rpz", name, "--clips"})["clips"];
+  ASSERT_EQ(plot["clips"].size(), stored.size());
+  for (std::size_t c = 0; c < stored.size(); ++c) {
+    for (const auto& [field, value] : plot["clips"][c].items())
+      EXPECT_EQ(stored[c][field], value) << field;
+  }
   const std::string file = read_file(folder() / "plot.png");
   const auto [width, height] = size_of(file);
   EXPECT_GE(width, seconds * plot["rate"].get<double>());

@@ -1,4 +1,6 @@
 // reprise search, and what info says of bodies.
+#include <sstream>
+
 #include "cli/command_runner.h"
 
 namespace fs = std::filesystem;
@@ -24,8 +26,41 @@ TEST_F(SearchTest, ResultsHaveThePromisedFields) {
     for (const char* field : {"start", "end", "distance_mm", "unlikeness"}) {
       EXPECT_TRUE(result.at(field).is_number()) << field;
     }
+    EXPECT_TRUE(result.at("repeat").is_boolean());
     EXPECT_LT(result.at("start"), result.at("end"));
   }
+}
+
+TEST_F(SearchTest, ALinePartsRepeatsFromTheRest) {
+  const std::string take = take_names()[1];
+  const std::vector<std::string> itself = {"search", "lib.rpz", "--like", "takes/" + take + ".bvh"};
+  const json results = document(itself).at("results");
+  EXPECT_TRUE(results.at(0).at("repeat").get<bool>());
+  ASSERT_FALSE(results.back().at("repeat").get<bool>());
+  std::istringstream lines(output(itself));
+  std::string line;
+  std::getline(lines, line);  // the headings
+  for (const json& result : results) {
+    std::getline(lines, line);
+    if (line.starts_with("---")) {
+      EXPECT_FALSE(result.at("repeat").get<bool>());
+      std::getline(lines, line);
+      break;
+    }
+    EXPECT_TRUE(result.at("repeat").get<bool>());
+    EXPECT_TRUE(line.starts_with(result.at("take").get<std::string>()));
+  }
+  EXPECT_FALSE(line.empty());
+  EXPECT_EQ(reprise(itself).err.find("nothing repeats"), std::string::npos);
+}
+
+TEST_F(SearchTest, SaysWhereNothingIsNear) {
+  const std::string take = take_names()[0];
+  const Outcome outcome = reprise({"search", "lib.rpz", "--id", take});
+  const json results = document({"search", "lib.rpz", "--id", take}).at("results");
+  const bool near = results.at(0).at("repeat").get<bool>();
+  EXPECT_EQ(near, outcome.err.find("nothing repeats the example") == std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(SearchTest, AFileFindsItsTake) {

@@ -95,8 +95,45 @@ TEST_F(MotionSearchTest, ATakeOfTheLibraryIsFoundFirstByItsFile) {
     EXPECT_NEAR(results[0].start, 0, 1e-9);
     EXPECT_NEAR(results[0].end, take.seconds(), 0.15);
     EXPECT_LT(results[0].distance_mm, 40);
-    EXPECT_TRUE(std::ranges::is_sorted(results, {}, &SearchResult::unlikeness));
+    EXPECT_TRUE(results[0].repeat);
   }
+}
+
+TEST_F(MotionSearchTest, RepeatsComeFirstByDistanceAndThenTheRestByUnlikeness) {
+  make_library();
+  const Archive opened(archive());
+  MotionSearch search(archive());
+  std::size_t repeats = 0, rest = 0;
+  for (const TakeInfo& take : opened.takes()) {
+    SearchOptions options;
+    options.from = 0;
+    options.to = 2;
+    options.all_occurrences = true;
+    for (const auto& results : {search.like(take), search.like(take, options)}) {
+      const auto first_other = std::ranges::find(results, false, &SearchResult::repeat);
+      EXPECT_TRUE(std::is_sorted(results.begin(), first_other, [](const auto& a, const auto& b) {
+        return a.distance_mm < b.distance_mm;
+      }));
+      EXPECT_TRUE(std::none_of(first_other, results.end(), [](const auto& r) { return r.repeat; }));
+      EXPECT_TRUE(std::is_sorted(first_other, results.end(), [](const auto& a, const auto& b) {
+        return a.unlikeness < b.unlikeness;
+      }));
+      repeats += static_cast<std::size_t>(first_other - results.begin());
+      rest += static_cast<std::size_t>(results.end() - first_other);
+    }
+  }
+  EXPECT_GT(repeats, 0u);
+  EXPECT_GT(rest, 0u);
+}
+
+TEST_F(MotionSearchTest, WhatHardlyMovesIsNoRepeatOfWhatDoes) {
+  make_library();
+  MotionSearch search(archive());
+  // A take that stands still, as its first frame, and hardly shakes.
+  Take still = library_.takes[0];
+  for (long frame = 0; frame < still.frames(); ++frame)
+    still.channels.row(frame) = library_.takes[0].channels.row(0);
+  for (const SearchResult& result : search.like(still)) EXPECT_FALSE(result.repeat);
 }
 
 TEST_F(MotionSearchTest, ATakeOfTheArchiveDoesNotFindItself) {

@@ -113,7 +113,7 @@ PostureLibrary motion_between_stands() {
 
 TEST(RepeatGroups, StandsDoNotCarryAMotionOn) {
   PostureLibrary library = motion_between_stands();
-  library.narrow_to_reach(constants);
+  library.follow_reach(constants);
   const auto groups =
       find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt, constants);
   EXPECT_TRUE(std::ranges::any_of(groups, [&](const RepeatGroup& group) {
@@ -129,7 +129,7 @@ TEST(RepeatsOfAClip, HaveToBeNearerWhereAllIsAlike) {
   PostureLibrary library = motion_between_stands();
   const Occurrence stand{3, 0, 30, 0}, motion{0, 60, 90, 0};
   const RepeatGroup alike = find_repeats_of(library, stand, constants);
-  library.narrow_to_reach(constants);
+  library.follow_reach(constants);
   const RepeatGroup nearer = find_repeats_of(library, stand, constants);
   EXPECT_LT(nearer.occurrences.size(), alike.occurrences.size());
   const float most = *std::ranges::max_element(library.similar_mm[3]);
@@ -204,6 +204,54 @@ TEST(PostureReach, OfTakesWithoutSamples) {
   const auto reaches = posture_reaches(takes, 0.1);
   ASSERT_EQ(reaches.size(), 1u);
   EXPECT_TRUE(reaches[0].empty());
+}
+
+TEST(PostureLibrary, WhatIsSimilarFollowsTheReach) {
+  PostureLibrary library = motion_between_stands();
+  // Motion that is far from all else, and from itself.
+  std::vector<PostureMatrix> takes = library.postures;
+  for (const int seed : {20, 21}) takes.push_back(4 * made_up_take(seed, 0, 4));
+  library = PostureLibrary(std::move(takes), constants);
+  library.follow_reach(constants);
+  const auto reaches = posture_reaches(library.projected, constants.reach_part);
+  std::size_t near = 0, far = 0;
+  for (std::size_t take = 0; take < library.takes(); ++take) {
+    for (std::size_t s = 0; s < reaches[take].size(); ++s) {
+      const float reach = reaches[take][s], similar = library.similar_mm[take][s];
+      const float across = library.similar_across_mm[take][s];
+      EXPECT_GE(across, similar);
+      EXPECT_LE(across, 1.001F * constants.across_subjects * similar);
+      const float in_proportion = constants.similar_mm * reach / constants.reach_mm;
+      if (reach < constants.reach_mm) {
+        EXPECT_NEAR(similar, std::max(1.0F, in_proportion), 0.01F);
+        ++near;
+      } else {  // more than at reach_mm, but less than in proportion
+        EXPECT_GE(similar, 0.999F * constants.similar_mm);
+        EXPECT_LE(similar, 1.001F * in_proportion);
+        far += similar > 1.5F * constants.similar_mm ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(near, 100u);
+  EXPECT_GT(far, 20u);
+}
+
+TEST(RepeatGroups, LargeMotionMayBeDoneAgainLessExactly) {
+  // 80 mm apart on average, but everything else is much further.
+  const auto large = [](int seed) { return PostureMatrix(4 * made_up_take(seed, 0, 4)); };
+  PostureMatrix again = large(1);
+  for (Eigen::Index c = 0; c < again.cols(); c += 3) again.col(c).array() += 80;
+  PostureLibrary library({large(1), again, large(2), large(3), large(4)}, constants);
+  const auto found = [&] {
+    return find_repeat_groups(library, find_near_pairs(library, constants), std::nullopt,
+                              constants);
+  };
+  EXPECT_TRUE(found().empty());
+  library.follow_reach(constants);
+  ASSERT_FALSE(found().empty());
+  for (const RepeatGroup& group : found()) {
+    for (const Occurrence& o : group.occurrences) EXPECT_LT(o.take, 2u);
+  }
 }
 
 /// Every joint of a posture this much further (mm): as far as that from the posture on average.

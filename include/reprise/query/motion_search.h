@@ -37,10 +37,14 @@ struct SearchResult {
   /// Mean distance of the body's joints along the best time alignment, heading and place taken out,
   /// on a body of one size.
   double distance_mm = 0;
-  /// What the order goes by, least first: a third (a quarter, for a whole example) is the course of
-  /// the motion, the rest mean and deviation of its postures, bearing hardly counting (in mm;
-  /// docs/cli.md).
+  /// What the order of the rest goes by, least first: a third (a quarter, for a whole example) is
+  /// the course of the motion, the rest mean and deviation of its postures, bearing hardly counting
+  /// (in mm; docs/cli.md).
   double unlikeness = 0;
+  /// Whether it repeats the example: as near as what Archive::repeats tells for a part that is
+  /// asked for, at a third to three times its speed, and nearer than 0.45 of what its own postures
+  /// are from their mean.
+  bool repeat = false;
 };
 
 /// Where a search keeps what it computes of an archive, if asked to: beside it, with ".features" at
@@ -63,7 +67,8 @@ class MotionSearch {
   /// not depend on it.
   const std::string& cache_problem() const;
 
-  /// Takes like a take that need not be in the archive, best first. A whole example is compared
+  /// Takes like a take that need not be in the archive, repeats of the example first, by
+  /// distance, then the rest by unlikeness. A whole example is compared
   /// with whole takes, and with parts of takes more than twice as long; a part of one with all
   /// parts of that length, at half to twice the speed. Nothing, where no take has a body that could
   /// be compared. Throws Error (usage) where from and to are not in the example.
