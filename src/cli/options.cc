@@ -1,15 +1,9 @@
 #include "cli/options.h"
 
 #include "reprise/error.h"
+#include "reprise/query/take_reading.h"
 
 namespace reprise::cli {
-namespace {
-
-// Beyond these no mocap file makes sense; they also keep products of times and rates in range.
-constexpr double greatest_millimetres_per_unit = 1e6;
-constexpr double greatest_frame_rate = 1e5;
-
-}  // namespace
 
 CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
                       const std::string& description, const std::string& type) {
@@ -106,8 +100,8 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
          },
          "The skeleton of AMC files; else the one beside each")
       ->type_name("FILE");
-  add_number(app, "--unit-mm", options.bvh_millimetres_per_unit, 1 / greatest_millimetres_per_unit,
-             greatest_millimetres_per_unit,
+  add_number(app, "--unit-mm", options.bvh_millimetres_per_unit,
+             1 / ReadingLimits::greatest_unit_mm, ReadingLimits::greatest_unit_mm,
              "Millimetres in a length unit of BVH files (default: guessed from the body, else 10)");
   app.add_option_function<std::string>(
          "--up",
@@ -117,7 +111,8 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
          },
          "The axis that points up: x, y, z, -x, -y or -z (default: found from the motion)")
       ->type_name("AXIS");
-  add_number(app, "--fps", options.amc_frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
+  add_number(app, "--fps", options.amc_frame_rate, 1 / ReadingLimits::greatest_frame_rate,
+             ReadingLimits::greatest_frame_rate,
              "Frames a second of AMC files, which do not say (default 120)");
 }
 
