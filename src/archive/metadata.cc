@@ -10,6 +10,7 @@
 #include "formats/text_lines.h"
 #include "reprise/error.h"
 #include "reprise/formats/motion_file.h"
+#include "reprise/query/take_reading.h"
 
 namespace reprise {
 namespace {

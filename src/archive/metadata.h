@@ -21,11 +21,6 @@ struct TakeMetadata {
   friend bool operator==(const TakeMetadata&, const TakeMetadata&) = default;
 };
 
-/// Limits of what a table, or an option, may say (--unit-mm, --fps).
-struct ReadingLimits {
-  static constexpr double greatest_unit_mm = 1e6, greatest_frame_rate = 1e5;
-};
-
 class MetadataTable {
  public:
   MetadataTable() = default;

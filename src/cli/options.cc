@@ -1,15 +1,9 @@
 #include "cli/options.h"
 
 #include "reprise/error.h"
+#include "reprise/query/take_reading.h"
 
 namespace reprise::cli {
-namespace {
-
-// Beyond these no mocap file makes sense; they also keep products of times and rates in range.
-constexpr double greatest_millimetres_per_unit = 1e6;
-constexpr double greatest_frame_rate = 1e5;
-
-}  // namespace
 
 CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
                       const std::string& description, const std::string& type) {
@@ -110,8 +104,8 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
          "name")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  add_number(app, "--unit-mm", options.bvh_millimetres_per_unit, 1 / greatest_millimetres_per_unit,
-             greatest_millimetres_per_unit,
+  add_number(app, "--unit-mm", options.bvh_millimetres_per_unit,
+             1 / ReadingLimits::greatest_unit_mm, ReadingLimits::greatest_unit_mm,
              "Millimetres in a length unit of BVH files (default: guessed from the body, else 10)");
   app.add_option_function<std::string>(
          "--up",
@@ -121,7 +115,8 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
          },
          "The axis that points up: x, y, z, -x, -y or -z (default: found from the motion)")
       ->type_name("AXIS");
-  add_number(app, "--fps", options.frame_rate, 1 / greatest_frame_rate, greatest_frame_rate,
+  add_number(app, "--fps", options.frame_rate, 1 / ReadingLimits::greatest_frame_rate,
+             ReadingLimits::greatest_frame_rate,
              "Frames a second, whatever the files say (else an AMC that says nothing has 120)");
   app.add_flag("--partial", options.partial, "Take a recording that was cut off as far as it goes");
 }

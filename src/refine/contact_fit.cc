@@ -145,7 +145,8 @@ void ContactFit::cut_by_source(CodedChannels& coded) const {
 }
 
 TakeContacts ContactFit::choose() const {
-  const TakeContacts all{find_contacts(plain_.legs, positions_, take_.frame_rate, take_.skeleton->up), 0};
+  const TakeContacts all{
+      find_contacts(plain_.legs, positions_, take_.frame_rate, take_.skeleton->up), 0};
   if (all.intervals.empty() || !skate_ || *skate_ <= Constants::most_skate_unheld) return {};
   CodedChannels tried = plain_;
   TakeContacts best;

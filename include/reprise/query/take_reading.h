@@ -10,6 +10,12 @@
 
 namespace reprise {
 
+/// What a user may say of a file. Beyond these no mocap file makes sense; they also keep products
+/// of times and rates in range. The least are their reciprocals.
+struct ReadingLimits {
+  static constexpr double greatest_unit_mm = 1e6, greatest_frame_rate = 1e5;
+};
+
 struct ReadingConstants {
   /// What a body is most likely as tall as, and what one may be (mm).
   static constexpr double usual_height_mm = 1700;
