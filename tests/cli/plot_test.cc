@@ -45,7 +45,7 @@ TEST_F(PlotCommandTest, DrawsATake) {
   expect_cover(plot["behaviours"], seconds);
   expect_cover(plot["clips"], seconds);
   // Those that are stored.
-  const json stored = document({"list", "lib.rpz", name, "--clips"})["clips"];
+  const json stored = document({"list", "lib.rpz", "--take", name, "--clips"})["clips"];
   ASSERT_EQ(plot["clips"].size(), stored.size());
   for (std::size_t c = 0; c < stored.size(); ++c) {
     for (const auto& [field, value] : plot["clips"][c].items())
