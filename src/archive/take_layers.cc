@@ -81,8 +81,8 @@ class LayerMaker {
   /// Motion whose last `contacts` bytes, about, are contacts; the header counts as motion.
   void add_motion(const Promise& promise, const char* part, const Bytes& motion,
                   std::size_t contacts) {
-    Bytes data =
-        join_header(*source_.take.skeleton, space_.space.known, source_.prepared.header, motion);
+    Bytes data = join_header(*source_.take.skeleton, space_.space.known, source_.take.frames(),
+                             source_.prepared.header, motion);
     count(part, data.size() - contacts);
     count("contacts", contacts);
     made_.layers.push_back({promise.kind, promise.limit_mm, promise.limit_deg, std::move(data)});

@@ -157,11 +157,13 @@ class HeaderCoder {
   void code_branches() {
     const std::uint32_t count = io_.number(static_cast<std::uint32_t>(header_.branches.size()));
     const auto joint_bits = static_cast<int>(std::bit_width(skeleton_.joints.size() - 1));
+    const auto frame_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(frames_)));
     std::int64_t frame = 0;
     for (std::uint32_t b = 0; b < count; ++b) {
       if (b == header_.branches.size()) header_.branches.emplace_back();
       AngleBranch& branch = header_.branches[b];
-      frame += io_.number(static_cast<std::uint32_t>(branch.frame - frame));
+      const bool another = io_.plain(branch.frame != frame ? 1 : 0, 1) != 0;
+      if (another) frame = io_.plain(static_cast<std::uint32_t>(branch.frame), frame_bits);
       const std::uint32_t index = io_.plain(static_cast<std::uint32_t>(branch.joint), joint_bits);
       io_.check();
       if (frame >= frames_ || index >= skeleton_.joints.size()) throw_damaged();
@@ -242,11 +244,11 @@ long prepared_frames(const TakeHeader& header, long frames) {
 }
 
 std::vector<std::uint8_t> join_header(const Skeleton& skeleton, const KnownValues& known,
-                                      const TakeHeader& header,
+                                      long frames, const TakeHeader& header,
                                       std::span<const std::uint8_t> data) {
   Writer writer;
   TakeHeader copy = header;
-  HeaderCoder(writer, skeleton, known, std::int64_t{1} << 40, copy).run();
+  HeaderCoder(writer, skeleton, known, frames, copy).run();
   const std::vector<std::uint8_t> coded = writer.encoder.finish();
   std::vector<std::uint8_t> bytes;
   std::size_t size = coded.size();

@@ -38,14 +38,16 @@ ChannelMatrix restore_take(const Skeleton& skeleton, const TakeHeader& header,
 /// Frames of the prepared take, of a source of so many.
 long prepared_frames(const TakeHeader& header, long frames);
 
-/// A header and a layer's own data, and back. `known` has a list a channel, or is empty.
+/// A header and a layer's own data, and back. `known` has a list a channel, or is empty; `frames`
+/// are the source's.
 std::vector<std::uint8_t> join_header(const Skeleton& skeleton, const KnownValues& known,
-                                      const TakeHeader& header, std::span<const std::uint8_t> data);
+                                      long frames, const TakeHeader& header,
+                                      std::span<const std::uint8_t> data);
 struct SplitLayer {
   TakeHeader header;
   std::span<const std::uint8_t> data;  ///< a part of the bytes
 };
-/// `frames` are the source's. Throws Error (damaged).
+/// Throws Error (damaged).
 SplitLayer split_header(const Skeleton& skeleton, const KnownValues& known, long frames,
                         std::span<const std::uint8_t> bytes);
 

@@ -58,8 +58,10 @@ std::vector<int> joints_between(const Skeleton& skeleton, int upper, int lower) 
   return {};
 }
 
-/// The joint between two others that halves the way best, by the lengths of bones.
+/// The joint between two others that halves the way best, by the lengths of bones; -1 without
+/// these, or between them.
 int middle_between(const Skeleton& skeleton, int upper, int lower) {
+  if (upper < 0 || lower < 0) return -1;
   const std::vector<int> between = joints_between(skeleton, upper, lower);
   double total = skeleton.joints[static_cast<std::size_t>(lower)].offset.norm();
   for (const int j : between) total += skeleton.joints[static_cast<std::size_t>(j)].offset.norm();

@@ -3,6 +3,8 @@
 
 #include "archive/archive_fixture.h"
 #include "exact/text_codec.h"
+#include "quant/take_header.h"
+#include "query/stored_forms.h"
 #include "refine/coarse_channels.h"
 #include "refine/coded_channels.h"
 #include "reprise/error.h"
@@ -49,6 +51,13 @@ class FalseRecords : public ArchiveTest {
     return record;
   }
 
+  /// The data of a layer of `short_`, behind its header.
+  Bytes layer_of(const Take& take, const TakeHeader& header, const Bytes& data) const {
+    const auto channels = static_cast<std::size_t>(take.skeleton->channel_count);
+    return join_header(*take.skeleton, read_known_values(*store_, short_.space, channels),
+                       take.frames(), header, data);
+  }
+
   /// Stores the record as a take of its own, and reads it.
   void expect_damage(TakeRecord record, const std::string& what) {
     ClipRecord clip;
@@ -93,28 +102,34 @@ TEST_F(FalseRecords, UnitsThatNobodyMeasuresInAreDamage) {
 
 TEST_F(FalseRecords, NumbersThatNoMotionHasAreDamage) {
   const Take take = read_motion_file(folder_ / "takes/short.bvh");
-  CodedChannels channels(*take.skeleton, {take.frames(), take.frame_rate}, {0, 0});
+  const TakeHeader header = prepare_take(take).header;
+  CodedChannels channels(*take.skeleton, header.constants, {take.frames(), take.frame_rate},
+                         {0, 0});
   std::ranges::fill(channels.steps.base, -1);
-  channels.stored = Eigen::MatrixXd::Constant(take.frames(), take.skeleton->channel_count, 1e300);
-  short_.layers.push_back({LayerKind::refinement, 10.0, channels.encode()});
+  channels.stored = Eigen::MatrixXd::Constant(take.frames(), channels.knots.cols(), 1e300);
+  short_.layers.push_back(
+      {LayerKind::refinement, 10.0, 10.0, layer_of(take, header, channels.encode())});
   expect_damage(short_, "a joint at 1e300");
 }
 
 TEST_F(FalseRecords, ChannelsThatBreakTheirMeanAreFound) {
   const Take take = read_motion_file(folder_ / "takes/short.bvh");
-  const Refinement coarse = coarse_channels(take, {20, true, 1u << 20}).value();
+  const PreparedTake prepared = prepare_take(take);
+  const Refinement coarse = coarse_channels(prepared, {20, true, 1u << 20}).value();
+  const Bytes layer = layer_of(take, prepared.header, coarse.bytes);
   ClipRecord clip;
   clip.frames = take.frames();
   for (const auto& [name, limit] : {std::pair{"kept", 20.0}, std::pair{"broken", 1e-3}}) {
     write(std::string("takes/") + name + ".bvh", chain_bvh(1, 40));
     short_.info.name = name;
-    short_.layers = {{LayerKind::channels, limit, coarse.bytes}};
+    short_.layers = {{LayerKind::channels, limit, 0.0, layer}};
     store_->add_take(short_, std::span(&clip, 1));
   }
   store_->commit();
   store_.reset();
   const Archive archive(folder_ / "archive");
-  EXPECT_TRUE(archive.extract(archive.find_take("kept")).channels == coarse.decoded);
+  EXPECT_TRUE(archive.extract(archive.find_take("kept")).channels ==
+              restore_take(*take.skeleton, prepared.header, coarse.decoded));
   std::vector<std::string> damaged;
   for (const Damage& damage : archive.verify(folder_ / "takes").damaged)
     damaged.push_back(damage.id);
@@ -158,7 +173,7 @@ TEST_F(FalseRecords, TextsLongerThanTheyWereAreDamage) {
   // A few coded bytes can be any number of empty lines: what a text may take is known beforehand.
   const std::string text = chain_bvh(1, 40) + std::string(100'000, '\n');
   short_.layers.push_back(
-      {LayerKind::text, 0.0, encode_text(text, text.substr(0, text.find("MOTION")))});
+      {LayerKind::text, 0.0, 0.0, encode_text(text, text.substr(0, text.find("MOTION")))});
   expect_damage(short_, "a text with lines that its file did not have");
 }
 
@@ -166,9 +181,10 @@ TEST_F(FalseRecords, FramesThatNoLayerHoldsAreDamage) {
   short_.info.frames = 100'000'000;
   short_.info.text_bytes = InputLimits::file_bytes;
   const Take take = read_motion_file(folder_ / "takes/short.bvh");
-  short_.layers = {
-      {LayerKind::refinement, 10.0,
-       CodedChannels(*take.skeleton, {take.frames(), take.frame_rate}, {0, 0}).encode()}};
+  const TakeHeader header = prepare_take(take).header;
+  const CodedChannels channels(*take.skeleton, header.constants, {take.frames(), take.frame_rate},
+                               {0, 0});
+  short_.layers = {{LayerKind::refinement, 10.0, 10.0, layer_of(take, header, channels.encode())}};
   expect_damage(short_, "many frames of a refinement of few bytes");
 }
 

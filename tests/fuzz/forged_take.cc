@@ -28,7 +28,7 @@ void change_kind(Kind& kind, std::size_t count, FuzzInput& input) {
 
 void edit_take(TakeRecord& take, FuzzInput& input) {
   LayerRecord& layer = take.layers[input.choice(take.layers.size())];
-  switch (input.choice(7)) {
+  switch (input.choice(9)) {
     case 0:
       edit(layer.data, input);
       break;
@@ -47,6 +47,13 @@ void edit_take(TakeRecord& take, FuzzInput& input) {
     case 5:
       take.info.fidelity.tier = static_cast<FidelityTier>(input.number(1));
       change(take.info.fidelity.limit_mm, real(input));
+      break;
+    case 6:
+      change(layer.limit_deg, real(input));
+      break;
+    case 7:
+      take.info.worst_turn.joint = static_cast<int>(input.number(2));
+      change(take.info.worst_turn.frame, static_cast<long>(input.number(4)));
       break;
     default:
       edit(take.error_quantiles, input);

@@ -24,7 +24,7 @@ class TakeHeaders : public testing::TestWithParam<MotionFormat> {
  protected:
   TakeHeader through_bytes(const TakeHeader& header, const KnownValues& known = {}) const {
     const std::vector<std::uint8_t> data = {1, 2, 3};
-    const auto bytes = join_header(*take_.skeleton, known, header, data);
+    const auto bytes = join_header(*take_.skeleton, known, take_.frames(), header, data);
     const SplitLayer split = split_header(*take_.skeleton, known, take_.frames(), bytes);
     EXPECT_TRUE(std::ranges::equal(split.data, data));
     return split.header;
@@ -44,8 +44,8 @@ TEST_P(TakeHeaders, ComeBackFromTheirBytes) {
   KnownValues known(header.constants.size());
   known[3] = {1.5, 7.12502};
   known[4] = {*header.constants[4]};
-  const auto with = join_header(*take_.skeleton, known, header, {});
-  EXPECT_LT(with.size(), join_header(*take_.skeleton, {}, header, {}).size());
+  const auto with = join_header(*take_.skeleton, known, take_.frames(), header, {});
+  EXPECT_LT(with.size(), join_header(*take_.skeleton, {}, take_.frames(), header, {}).size());
   EXPECT_EQ(through_bytes(header, known), header);
   EXPECT_EQ(decode_known_values(encode_known_values(known), known.size()), known);
 }
@@ -87,7 +87,7 @@ TEST_P(TakeHeaders, HostileBytesAreDamageOrAHeader) {
   for (Eigen::Index f = take_.frames() / 2; f < take_.frames(); ++f) take_.channels(f, 4) += 360;
   const PreparedTake prepared = prepare_take(take_);
   ASSERT_FALSE(prepared.header.branches.empty());
-  const auto good = join_header(*take_.skeleton, {}, prepared.header, {});
+  const auto good = join_header(*take_.skeleton, {}, take_.frames(), prepared.header, {});
   std::mt19937 random(1);
   for (int i = 0; i < 500; ++i) {
     auto bytes = good;

@@ -9,6 +9,7 @@
 #include "query/joint_names.h"
 #include "query/posture_track.h"
 #include "reprise/error.h"
+#include "reprise/formats/motion_file.h"
 #include "reprise/synth/library.h"
 
 namespace reprise {
@@ -76,6 +77,26 @@ Skeleton without_feet(Skeleton skeleton) {
     if (above.ends_with("Foot") || above.ends_with("ToeBase")) joint.offset.setZero();
   }
   return skeleton;
+}
+
+/// Parts of bodies are kept, too: a neck alone, a hand on a foot.
+TEST(BodyJoints, AnyTwoJointsAreNoBodyButNoHarm) {
+  const std::vector<std::string> names = {"Hips",      "Spine",    "Neck",     "Head",
+                                          "LeftUpLeg", "LeftLeg",  "LeftFoot", "LeftArm",
+                                          "LeftHand",  "RightHand"};
+  for (const std::string& root : names) {
+    for (const std::string& child : names) {
+      const std::string text =
+          "HIERARCHY\nROOT " + root +
+          "\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT " + child +
+          "\n{\nOFFSET 0 10 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 10 "
+          "0\n}\n}\n}\n";
+      const Skeleton skeleton = read_bvh_skeleton(text, "part.bvh", 10);
+      const BodyMatch match = match_body(skeleton, {});
+      EXPECT_FALSE(match.is_body()) << root << ", " << child;
+      for (const int joint : match.joints) EXPECT_LT(joint, 3) << root << ", " << child;
+    }
+  }
 }
 
 TEST(BodyJoints, AMapComesFirst) {

@@ -221,7 +221,7 @@ TEST_F(ArchiveStoreTest, StatisticsAddUp) {
   const ArchiveStore store = ArchiveStore::open_for_reading(path_);
   std::uint64_t weights = 0;
   const ArchiveStats stats =
-      store.stats([&](const Bytes&, std::uint64_t weight) { weights += weight; });
+      store.stats([&](const TakeRecord&, std::uint64_t weight) { weights += weight; });
   std::uint64_t sum = 0;
   for (const auto& [name, bytes] : stats.bytes) sum += bytes;
   EXPECT_EQ(sum, stats.archive_bytes);

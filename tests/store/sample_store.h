@@ -79,8 +79,8 @@ inline TakeRecord sample_take(const Ground& ground, int number) {
   take.proportions = ground.proportions;
   take.space = ground.space;
   take.error_quantiles = {1, 2, 3, 4, 5, 6, 7, 8};
-  take.layers = {{LayerKind::coefficients, 20.0, random_bytes(200 + 10 * seed, seed)},
-                 {LayerKind::refinement, 10.0, random_bytes(300 + 10 * seed, seed + 1)}};
+  take.layers = {{LayerKind::coefficients, 20.0, 0.0, random_bytes(200 + 10 * seed, seed)},
+                 {LayerKind::refinement, 10.0, 5.0, random_bytes(300 + 10 * seed, seed + 1)}};
   take.spent = {{"curves", take.layers[0].data.size()}, {"refinement", take.layers[1].data.size()}};
   return take;
 }
