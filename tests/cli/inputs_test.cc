@@ -147,7 +147,7 @@ TEST_F(InputsTest, OtherKindsAreCountedAndMacsCompanionsPassedOver) {
   write("in/README", "x");
   write("in/.bvh", swing(3, 3, "0.04"));
   write("in/a.asf", plain_asf());
-  const Outcome outcome = reprise({"ingest", "lib.rpz", "in"});
+  const Outcome outcome = reprise({"ingest", "lib.rpz", "in", "--unit-mm", "10"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err,
             "5 files of other kinds: 2 .fbx, 1 without an ending, 1 named just .bvh, 1 .c3d\n");
@@ -166,7 +166,7 @@ TEST_F(InputsTest, WhatIsStoredUnderAnotherNameIsTold) {
   write("two/y.bvh", swing(30, 30));
   write("two/z.bvh", swing(30, 30, "0.04"));
   output({"ingest", "lib.rpz", "one"});
-  const Outcome outcome = reprise({"ingest", "lib.rpz", "two", "--dry-run"});
+  const Outcome outcome = reprise({"ingest", "lib.rpz", "two", "--dry-run", "--unit-mm", "10"});
   EXPECT_EQ(outcome.err, "y: the same as x\n");
   const auto report = document({"ingest", "lib.rpz", "two"});
   EXPECT_EQ(report.at("added").size(), 2U);
@@ -179,7 +179,7 @@ TEST_F(InputsTest, WhatIsStoredUnderAnotherNameIsTold) {
 
 TEST_F(InputsTest, ManyOfOneContentAreTenLines) {
   for (int i = 0; i < 13; ++i) write("in/take" + std::to_string(i) + ".bvh", swing(3, 3));
-  const Outcome outcome = reprise({"ingest", "lib.rpz", "in", "--dry-run"});
+  const Outcome outcome = reprise({"ingest", "lib.rpz", "in", "--dry-run", "--unit-mm", "10"});
   EXPECT_EQ(lines_of(outcome.err).size(), 11U) << outcome.err;
   EXPECT_NE(outcome.err.find("2 takes more that are the same"), std::string::npos) << outcome.err;
 }
@@ -192,7 +192,8 @@ TEST_F(InputsTest, WhatIsReplacedIsToldApart) {
   EXPECT_NE(nothing.err.find("--replace replaced nothing"), std::string::npos) << nothing.err;
   write("in/b.bvh", swing(41, 41));
   write("in/c.bvh", swing(42, 42));
-  const Outcome dry = reprise({"ingest", "lib.rpz", "in", "--replace", "--dry-run"});
+  const Outcome dry =
+      reprise({"ingest", "lib.rpz", "in", "--replace", "--dry-run", "--unit-mm", "10"});
   EXPECT_EQ(dry.err, "");
   const auto report = document({"ingest", "lib.rpz", "in", "--replace"});
   EXPECT_EQ(report.at("added"), (nlohmann::json{"b", "c"}));

@@ -11,6 +11,8 @@ using nlohmann::json;
 /// Field names with their JSON types, nested: "number" takes whole numbers and others.
 const json error_shape = {
     {"mean", "number"}, {"rms", "number"}, {"p99", "number"}, {"max", "number"}};
+const json turns_shape = {{"mean", "number"}, {"p99", "number"}, {"max", "number"}};
+const json worst_shape = {{"joint", "string"}, {"frame", "integer"}, {"time", "number"}};
 const json stats_shape = {
     {"takes", "integer"},
     {"frames", "integer"},
@@ -26,15 +28,30 @@ const json stats_shape = {
     {"bytes", "counts"},
     {"ratio", {{"raw", "number"}, {"text", "number"}}},
     {"error_mm", error_shape},
+    {"rotation_deg", turns_shape},
+    {"worst_place_take", "string"},
+    {"worst_turn_take", "string"},
     {"fidelity", "counts"}};
-const json take_shape = {{"id", "string"},         {"name", "string"},
-                         {"subject", "string"},    {"format", "string"},
-                         {"frames", "integer"},    {"frame_rate", "number"},
-                         {"seconds", "number"},    {"fidelity", "string"},
-                         {"unit_mm", "number"},    {"unit_assumed", "boolean"},
-                         {"up", "string"},         {"up_assumed", "boolean"},
-                         {"raw_bytes", "integer"}, {"payload_bytes", "integer"},
-                         {"error_mm", error_shape}};
+const json take_shape = {{"id", "string"},
+                         {"name", "string"},
+                         {"subject", "string"},
+                         {"format", "string"},
+                         {"frames", "integer"},
+                         {"frame_rate", "number"},
+                         {"seconds", "number"},
+                         {"fidelity", "string"},
+                         {"unit_mm", "number"},
+                         {"unit_assumed", "boolean"},
+                         {"up", "string"},
+                         {"up_assumed", "boolean"},
+                         {"raw_bytes", "integer"},
+                         {"payload_bytes", "integer"},
+                         {"error_mm", error_shape},
+                         {"rotation_deg", turns_shape},
+                         {"limit_mm", "number"},
+                         {"limit_deg", "number"},
+                         {"worst_place", worst_shape},
+                         {"worst_turn", worst_shape}};
 const json clip_shape = {{"id", "string"},           {"take", "string"},    {"kind", "string"},
                          {"group", "integer"},       {"start", "number"},   {"end", "number"},
                          {"first_frame", "integer"}, {"frames", "integer"}, {"bytes", "integer"}};
@@ -114,13 +131,14 @@ TEST_F(JsonTest, IngestTellsWhatBecameOfEachInput) {
   output({"synth", "takes", "--takes", "2", "--seconds", "2"});
   write_file(folder() / "takes/broken.bvh", "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 nonsense\n");
   const json first = document({"ingest", "lib.rpz", "takes"}, 3);
-  const json shape = {
-      {"added", "array"},          {"skipped", "array"},       {"other_fidelity", "array"},
-      {"other_metadata", "array"}, {"other_reading", "array"}, {"takes_not_found", "array"},
-      {"rejected", "array"},       {"seconds", "number"},      {"stats", stats_shape},
-      {"replaced", "array"},       {"same_source", "array"},   {"notes", "array"},
-      {"other_kinds", "counts"},   {"estimate", "null"},       {"assumed_units", "array"},
-      {"implausible_units", "array"}};
+  const json shape = {{"added", "array"},          {"skipped", "array"},
+                      {"other_fidelity", "array"}, {"other_metadata", "array"},
+                      {"other_reading", "array"},  {"takes_not_found", "array"},
+                      {"rejected", "array"},       {"seconds", "number"},
+                      {"stats", stats_shape},      {"replaced", "array"},
+                      {"same_source", "array"},    {"notes", "array"},
+                      {"other_kinds", "counts"},   {"estimate", "null"},
+                      {"assumed_units", "array"},  {"implausible_units", "array"}};
   expect_shape(first, shape, "ingest");
   EXPECT_EQ(first["added"].size(), 2U);
   ASSERT_EQ(first["rejected"].size(), 1U);
@@ -145,7 +163,11 @@ TEST_F(JsonTest, CompareAndVerify) {
                       {"p99_mm", "number"},
                       {"max_mm", "number"},
                       {"d_percent", "number"},
-                      {"foot_skate_mm_s", {{"original", "number"}, {"decoded", "number"}}}};
+                      {"foot_skate_mm_s", {{"original", "number"}, {"decoded", "number"}}},
+                      {"rotation_deg", turns_shape},
+                      {"local_rotation_deg", turns_shape},
+                      {"worst_place", worst_shape},
+                      {"worst_turn", worst_shape}};
   expect_shape(same, shape, "compare");
   EXPECT_EQ(same["max_mm"], 0);
   const json verified = document({"verify", "lib.rpz"});
@@ -154,7 +176,8 @@ TEST_F(JsonTest, CompareAndVerify) {
                 {"takes", "integer"},
                 {"clips", "integer"},
                 {"damaged", "array"},
-                {"error_mm", error_shape}},
+                {"error_mm", error_shape},
+                {"rotation_deg", turns_shape}},
                "verify");
   EXPECT_EQ(verified["ok"], true);
   EXPECT_EQ(verified["takes"], 4);

@@ -19,6 +19,10 @@ void change(Number& number, Number to) {
   number = to == number ? number + 1 : to;
 }
 
+void change(UpAxis& axis, UpAxis to) {
+  axis = to == axis ? static_cast<UpAxis>(static_cast<int>(axis) + 1) : to;
+}
+
 /// One of the kinds from 1 to `count`, but not this one.
 template <class Kind>
 void change_kind(Kind& kind, std::size_t count, FuzzInput& input) {
@@ -76,7 +80,7 @@ void edit_proportions(Forged& forged, FuzzInput& input) {
       change(record.millimetres_per_unit, real(input));
       break;
     case 4:
-      record.up = static_cast<UpAxis>(input.number(1));
+      change(record.up, static_cast<UpAxis>(input.number(1)));
       break;
     default:
       edit(record.source_text, input);

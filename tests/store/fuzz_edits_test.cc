@@ -32,13 +32,13 @@ class FuzzEdits : public StoreTest {
 
 std::string text_of(const Forged& forged) {
   const TakeRecord& take = forged.take;
-  std::string text =
-      fmt::format("{} {} {} {} {} {} {} | {} {} {} {} {} |", take.info.frames, take.info.text_bytes,
-                  static_cast<int>(take.info.fidelity.tier), take.info.fidelity.limit_mm,
-                  take.info.worst_turn.joint, take.info.worst_turn.frame,
-                  hexadecimal(take.error_quantiles), forged.proportions.frame_rate,
-                  forged.proportions.millimetres_per_unit, forged.proportions.asf_name,
-                  forged.proportions.source_text, hexadecimal(forged.proportions.layout));
+  std::string text = fmt::format(
+      "{} {} {} {} {} {} {} | {} {} {} {} {} {} |", take.info.frames, take.info.text_bytes,
+      static_cast<int>(take.info.fidelity.tier), take.info.fidelity.limit_mm,
+      take.info.worst_turn.joint, take.info.worst_turn.frame, hexadecimal(take.error_quantiles),
+      forged.proportions.frame_rate, forged.proportions.millimetres_per_unit,
+      static_cast<int>(forged.proportions.up), forged.proportions.asf_name,
+      forged.proportions.source_text, hexadecimal(forged.proportions.layout));
   for (const LayerRecord& layer : take.layers) {
     text += fmt::format("{} {} {} {} |", static_cast<int>(layer.kind), layer.limit_mm,
                         layer.limit_deg, hexadecimal(layer.data));
