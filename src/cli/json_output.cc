@@ -116,8 +116,6 @@ Json to_json(const ArchiveStats& stats) {
             {"text", ratio(stats.text_bytes, stats.archive_bytes)}}},
           {"error_mm", to_json(stats.error_mm)},
           {"rotation_deg", to_json(stats.rotation_deg)},
-          {"worst_place_take", stats.worst_place_take},
-          {"worst_turn_take", stats.worst_turn_take},
           {"fidelity", fidelity}};
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/json_output.h"
 #include "cli/text.h"
+#include "cli/worst_errors.h"
 
 namespace reprise::cli {
 namespace {
@@ -13,14 +14,6 @@ using enum Table::Align;
 std::string share(std::uint64_t part, std::uint64_t whole) {
   if (whole == 0) return "-";
   return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
-}
-
-/// Which takes have the greatest errors.
-std::string worst_takes(const ArchiveStats& stats) {
-  std::string text;
-  if (!stats.worst_place_take.empty()) text += "worst place in: " + stats.worst_place_take + "\n";
-  if (!stats.worst_turn_take.empty()) text += "worst turn in: " + stats.worst_turn_take + "\n";
-  return printable(text);
 }
 
 std::string stats_text(const ArchiveStats& stats, bool bold) {
@@ -54,7 +47,7 @@ std::string stats_text(const ArchiveStats& stats, bool bold) {
 
   return counts.text(bold) + "\n" + sizes.text(bold) + "\n" + parts.text(bold) + "\n" +
          fidelity.text(bold) + "\nerror: " + format_errors(stats.error_mm) +
-         "\nturns: " + format_turns(stats.rotation_deg) + "\n" + worst_takes(stats);
+         "\nturns: " + format_turns(stats.rotation_deg) + "\n";
 }
 
 }  // namespace
@@ -65,9 +58,13 @@ void StatsCommand::setup(CLI::App& app) {
 }
 
 ExitCode StatsCommand::run(Console& console) {
-  const ArchiveStats stats = Archive(archive_).stats();
-  console.result(stats_text(stats, console.bold_results()));
-  console.document(to_json(stats));
+  const Archive archive(archive_);
+  const ArchiveStats stats = archive.stats();
+  const WorstErrors worst = find_worst_errors(archive, stats);
+  console.result(stats_text(stats, console.bold_results()) + worst_text(worst));
+  Json document = to_json(stats);
+  add_worst(worst, document);
+  console.document(document);
   return exit_done;
 }
 

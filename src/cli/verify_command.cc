@@ -8,6 +8,7 @@
 #include "cli/interruption.h"
 #include "cli/json_output.h"
 #include "cli/text.h"
+#include "cli/worst_errors.h"
 #include "reprise/error.h"
 
 namespace reprise::cli {
@@ -83,10 +84,17 @@ ExitCode VerifyCommand::run(Console& console) {
     ProgressBar bar("verify", console.progress_terminal());
     report = report_of(archive_, against, read_, progress_sink(bar, console), unopened);
   }
-  if (!unopened && (!report.ok || !console.quiet())) {
-    console.result(report_text(report, against.has_value()));
+  WorstErrors worst;
+  if (report.ok) {
+    const Archive archive(archive_);
+    worst = find_worst_errors(archive, archive.stats());
   }
-  console.document(document_of(report));
+  if (!unopened && (!report.ok || !console.quiet())) {
+    console.result(report_text(report, against.has_value()) + worst_text(worst));
+  }
+  Json document = document_of(report);
+  add_worst(worst, document);
+  console.document(document);
   if (unopened) {
     console.complaint(report_line(*unopened));
     return exit_code(unopened->code());

@@ -7,6 +7,7 @@
 #include "query/stored_forms.h"
 #include "refine/coarse_channels.h"
 #include "refine/coded_channels.h"
+#include "refine/refinement.h"
 #include "reprise/error.h"
 #include "store/archive_store.h"
 
@@ -133,6 +134,28 @@ TEST_F(FalseRecords, ChannelsThatBreakTheirMeanAreFound) {
   std::vector<std::string> damaged;
   for (const Damage& damage : archive.verify(folder_ / "takes").damaged)
     damaged.push_back(damage.id);
+  EXPECT_EQ(damaged, std::vector<std::string>{"broken"});
+}
+
+TEST_F(FalseRecords, TurnsThatBreakTheirBoundAreFound) {
+  const Take take = read_motion_file(folder_ / "takes/short.bvh");
+  const PreparedTake prepared = prepare_take(take);
+  const Bytes layer = layer_of(take, prepared.header, refine(prepared, {10, 10}).bytes);
+  ClipRecord clip;
+  clip.frames = take.frames();
+  for (const auto& [name, degrees] : {std::pair{"kept", 10.0}, std::pair{"broken", 0.001}}) {
+    write(std::string("takes/") + name + ".bvh", chain_bvh(1, 40));
+    short_.info.name = name;
+    short_.layers = {{LayerKind::refinement, 10.0, degrees, layer}};
+    store_->add_take(short_, std::span(&clip, 1));
+  }
+  store_->commit();
+  store_.reset();
+  std::vector<std::string> damaged;
+  for (const Damage& damage : Archive(folder_ / "archive").verify(folder_ / "takes").damaged) {
+    damaged.push_back(damage.id);
+    EXPECT_NE(damage.why.find("degrees"), std::string::npos) << damage.why;
+  }
   EXPECT_EQ(damaged, std::vector<std::string>{"broken"});
 }
 

@@ -75,6 +75,8 @@ TEST_F(ErrorsTest, FidelitiesThatDoNotGoTogetherAreRefused) {
   refused({"--bound-mm", "5", "--mean-mm", "5"}, "--mean-mm");
   refused({"--bound-mm", "0.01"}, "--bound-mm");
   refused({"--bound-mm", "101"}, "--bound-mm");
+  refused({"--bound-deg", "5"}, "--bound-mm");
+  refused({"--bound-mm", "5", "--bound-deg", "181"}, "--bound-deg");
 }
 
 TEST_F(ErrorsTest, WhatIsNotStoredCannotBeExtracted) {

@@ -292,6 +292,24 @@ TEST_F(IngestTest, MeanIsHeld) {
             document({"stats", "fine.rpz"}).at("payload_bytes"));
 }
 
+TEST_F(IngestTest, TurnsAreHeld) {
+  output({"synth", "takes", "--takes", "2", "--seconds", "3"});
+  output({"ingest", "coarse.rpz", "takes", "--bound-mm", "10"});
+  output({"ingest", "fine.rpz", "takes", "--bound-mm", "10", "--bound-deg", "2"});
+  for (const auto& [archive, degrees] : {std::pair{"coarse.rpz", 10.0}, {"fine.rpz", 2.0}}) {
+    const auto take_list = document({"list", archive});
+    ASSERT_EQ(take_list.at("takes").size(), 2U);
+    for (const auto& take : take_list.at("takes")) {
+      EXPECT_EQ(take.at("limit_deg"), degrees);
+      EXPECT_LE(take.at("rotation_deg").at("max").get<double>(), degrees);
+      EXPECT_GT(take.at("rotation_deg").at("max").get<double>(), 0.1 * degrees);
+    }
+    EXPECT_EQ(document({"verify", archive, "--against", "takes"}).at("ok"), true);
+  }
+  EXPECT_LT(document({"stats", "coarse.rpz"}).at("payload_bytes"),
+            document({"stats", "fine.rpz"}).at("payload_bytes"));
+}
+
 TEST_F(IngestTest, OddNamesAreJustNames) {
   output({"synth", "takes", "--takes", "1", "--seconds", "2"});
   std::string text;

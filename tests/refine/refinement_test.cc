@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "query/promise.h"
@@ -139,6 +140,72 @@ TEST_P(Refinements, HostileBytesAreDamageOrMotion) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::damaged);
     }
+  }
+}
+
+TEST_P(Refinements, ATPoseInFrontDisturbsNothing) {
+  const Take without = synthetic_take(GetParam());
+  Take with = without;
+  with.channels.resize(without.frames() + 1, without.channels.cols());
+  with.channels.bottomRows(without.frames()) = without.channels;
+  with.channels.row(0) = without.channels.row(0);
+  for (const Joint& joint : with.skeleton->joints) {
+    for (const int slot : joint.rotation_slots) {
+      with.channels(0, joint.first_channel + slot) = slot == joint.rotation_slots.front() ? 80 : 0;
+    }
+  }
+  const Decoded decoded = refined(with, {10, 10});
+  expect_bounds(with, decoded.channels, 10, 10);
+  EXPECT_TRUE(decoded.channels.bottomRows(without.frames()) == refined(without, {10, 10}).channels);
+}
+
+TEST_P(Refinements, AHeadingThatWrapsIsCodedAsOneThatDoesNot) {
+  Take smooth = synthetic_take(GetParam());
+  const Joint& root = smooth.skeleton->joints.front();
+  const auto heading = root.first_channel + root.rotation_slots[1];
+  for (Eigen::Index f = 0; f < smooth.frames(); ++f) {
+    smooth.channels(f, heading) += 4.0 * static_cast<double>(f);
+  }
+  Take wrapped = smooth;
+  for (double& angle : wrapped.channels.col(heading).reshaped()) {
+    angle -= 360 * std::round(angle / 360);
+  }
+  const Decoded a = refined(smooth, {10, 10}), b = refined(wrapped, {10, 10});
+  expect_bounds(wrapped, b.channels, 10, 10);
+  EXPECT_NEAR(static_cast<double>(b.refinement.bytes.size()),
+              static_cast<double>(a.refinement.bytes.size()),
+              0.02 * static_cast<double>(a.refinement.bytes.size()));
+  // In the source's own branch.
+  EXPECT_LT((b.channels - wrapped.channels).col(heading).cwiseAbs().maxCoeff(), 90);
+}
+
+/// A joint with position channels that never change is a bone of one length.
+TEST(RefinementOfBones, PositionChannelsThatDoNotMoveMakeUpForNothing) {
+  std::string text = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n";
+  const std::string six =
+      "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
+  text += six;
+  for (const char* name : {"b", "c", "d"}) {
+    text += std::string("JOINT ") + name + "\n{\nOFFSET 1 30 2\n" + six;
+  }
+  text += "End Site\n{\nOFFSET 0 10 0\n}\n}\n}\n}\n}\n";
+  Take take;
+  take.skeleton = std::make_shared<Skeleton>(read_bvh_skeleton(text, "bones.bvh", 10));
+  take.frame_rate = 60;
+  take.channels.resize(200, 24);
+  for (Eigen::Index f = 0; f < 200; ++f) {
+    for (Eigen::Index c = 0; c < 24; ++c) {
+      const double time = static_cast<double>(f) / 60;
+      const bool place = c % 6 < 3;
+      take.channels(f, c) = place && c >= 6
+                                ? 25.5 + static_cast<double>(c)
+                                : 40 * std::sin((1 + 0.1 * static_cast<double>(c)) * time);
+    }
+  }
+  const Decoded decoded = refined(take, {10, 10});
+  expect_bounds(take, decoded.channels, 10, 10);
+  for (Eigen::Index c = 6; c < 24; ++c) {
+    if (c % 6 < 3) EXPECT_TRUE((decoded.channels.col(c).array() == take.channels(0, c)).all()) << c;
   }
 }
 
