@@ -4,6 +4,7 @@
 
 #include "cli/json_output.h"
 #include "cli/text.h"
+#include "cli/worst_errors.h"
 #include "reprise/query/body_joints.h"
 #include "reprise/query/key_poses.h"
 
@@ -42,12 +43,13 @@ std::string archive_text(const ArchiveInfo& info, const std::vector<std::string>
   return table.text();
 }
 
-Json archive_document(const ArchiveInfo& info, const std::vector<std::string>& subjects) {
+Json archive_document(const Archive& archive, const ArchiveInfo& info,
+                      const std::vector<std::string>& subjects) {
   return {{"content_digest", info.content_digest},
           {"format_version", info.format_version},
           {"written_by", info.written_by},
           {"subjects", subjects},
-          {"stats", to_json(info.stats)}};
+          {"stats", stats_document(info.stats, find_worst_errors(archive, info.stats))}};
 }
 
 std::string limit_text(const Fidelity& fidelity) {
@@ -216,7 +218,7 @@ ExitCode InfoCommand::run(Console& console) {
     const ArchiveInfo info = archive.info();
     const auto subjects = archive.subjects();
     console.result(archive_text(info, subjects));
-    console.document(archive_document(info, subjects));
+    console.document(archive_document(archive, info, subjects));
     return exit_done;
   }
   const Archive::Selection selection = archive.find(id_);

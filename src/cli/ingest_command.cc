@@ -11,6 +11,7 @@
 #include "cli/interruption.h"
 #include "cli/json_output.h"
 #include "cli/text.h"
+#include "cli/worst_errors.h"
 #include "reprise/error.h"
 
 namespace fs = std::filesystem;
@@ -37,8 +38,16 @@ std::string checked_prefix(std::string prefix) {
 }
 
 /// The archive's figures; all 0 where no take has made it yet.
-ArchiveStats stats_of(const fs::path& archive) {
-  return fs::exists(archive) ? Archive(archive).stats() : ArchiveStats{};
+struct Figures {
+  ArchiveStats stats;
+  WorstErrors worst;
+};
+Figures figures_of(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  const Archive archive(path);
+  Figures figures{archive.stats(), {}};
+  figures.worst = find_worst_errors(archive, figures.stats);
+  return figures;
 }
 
 /// Names below the first line of a dry run's summary, which counts them.
@@ -93,11 +102,12 @@ std::string summary(const IngestReport& report, const ArchiveStats& stats, bool 
     table.add({"text", fmt::format("{}, {}", format_size(stats.text_bytes),
                                    format_ratio(stats.text_bytes, stats.archive_bytes))});
     table.add({"error", format_errors(stats.error_mm)});
+    table.add({"turns", format_turns(stats.rotation_deg)});
   }
   return dry_run ? with_names(table.text(), report.added) : table.text();
 }
 
-Json document_of(const IngestReport& report, const ArchiveStats& stats) {
+Json document_of(const IngestReport& report, const Figures& figures) {
   Json rejected = Json::array(), same = Json::array(), notes = Json::array(), estimate;
   for (const RejectedInput& input : report.rejected) {
     rejected.push_back(
@@ -137,7 +147,7 @@ Json document_of(const IngestReport& report, const ArchiveStats& stats) {
           {"other_kinds", Json(report.other_kinds)},
           {"estimate", estimate},
           {"seconds", report.seconds},
-          {"stats", to_json(stats)}};
+          {"stats", stats_document(figures.stats, figures.worst)}};
 }
 
 std::string place_line(const std::string& path, std::size_t line, const std::string& said) {
@@ -324,9 +334,9 @@ ExitCode IngestCommand::run(Console& console) {
     throw Error(ErrorCode::failed, "no archive was made, as there is nothing to store",
                 {archive_.string()});
   }
-  const ArchiveStats stats = stats_of(archive_);
-  if (!console.quiet()) console.result(summary(report, stats, options_.dry_run));
-  console.document(document_of(report, stats));
+  const Figures figures = figures_of(archive_);
+  if (!console.quiet()) console.result(summary(report, figures.stats, options_.dry_run));
+  console.document(document_of(report, figures));
   return report.rejected.empty() ? exit_done : static_cast<int>(ErrorCode::rejected_input);
 }
 

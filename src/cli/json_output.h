@@ -13,7 +13,7 @@ Json to_json(const TakeInfo& take);                ///< what is known of a take 
 Json to_json(const TakeInfo& take, const Skeleton& skeleton);
 Json to_json(const ClipInfo& clip);          ///< an entry of list's "clips"
 Json to_json(const SkeletonInfo& skeleton);  ///< an entry of list's "skeletons"
-Json to_json(const ArchiveStats& stats);     ///< the document of stats
+Json to_json(const ArchiveStats& stats);     ///< of that of stats, but for where errors are
 /// The document of compare.
 Json to_json(const Comparison& comparison, const Take& original);
 /// Where an error is largest: {"joint","frame","time"}.

@@ -25,8 +25,7 @@ Take read_example(const std::filesystem::path& path, const ReadOptions& options,
                   const std::filesystem::path& archive) {
   std::optional<std::filesystem::path> asf;
   if (!options.asf.empty()) asf = options.asf.front();
-  Take take =
-      path == "-" ? read_motion_from_stdin(asf, options) : read_motion_file(path, options);
+  Take take = path == "-" ? read_motion_from_stdin(asf, options) : read_motion_file(path, options);
   read_as_stored(take, options, archive);
   return take;
 }
@@ -128,9 +127,8 @@ void SearchCommand::check() {
   if (options_.from && options_.to && *options_.from >= *options_.to) {
     throw Error(ErrorCode::usage, "--from must be before --to");
   }
-  const bool reads =
-      !read_.asf.empty() || read_.bvh_millimetres_per_unit || read_.up || read_.frame_rate ||
-      read_.partial;
+  const bool reads = !read_.asf.empty() || read_.bvh_millimetres_per_unit || read_.up ||
+                     read_.frame_rate || read_.partial;
   if (!id_.empty() && reads) {
     throw Error(ErrorCode::usage,
                 "--asf, --unit-mm, --up, --fps and --partial are for an example from a FILE");

@@ -62,9 +62,7 @@ ExitCode StatsCommand::run(Console& console) {
   const ArchiveStats stats = archive.stats();
   const WorstErrors worst = find_worst_errors(archive, stats);
   console.result(stats_text(stats, console.bold_results()) + worst_text(worst));
-  Json document = to_json(stats);
-  add_worst(worst, document);
-  console.document(document);
+  console.document(stats_document(stats, worst));
   return exit_done;
 }
 

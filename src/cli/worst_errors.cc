@@ -54,4 +54,10 @@ void add_worst(const WorstErrors& worst, Json& document) {
   document["worst_turn"] = json_of(worst.turn);
 }
 
+Json stats_document(const ArchiveStats& stats, const WorstErrors& worst) {
+  Json document = to_json(stats);
+  add_worst(worst, document);
+  return document;
+}
+
 }  // namespace reprise::cli

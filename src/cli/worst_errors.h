@@ -25,5 +25,7 @@ WorstErrors find_worst_errors(const Archive& archive, const ArchiveStats& stats)
 std::string worst_text(const WorstErrors& worst);
 /// Adds "worst_place" and "worst_turn": {"take","joint","frame","time"}, or null.
 void add_worst(const WorstErrors& worst, Json& document);
+/// The document of `stats`.
+Json stats_document(const ArchiveStats& stats, const WorstErrors& worst);
 
 }  // namespace reprise::cli
