@@ -26,8 +26,8 @@ struct CodingSource {
   const std::string& text;  ///< the source file, which only `exact` stores
 };
 
-/// `fitted` is the prepared take on its space; one that is not kept there is `exact` and has its text
-/// alone.
+/// `fitted` is the prepared take on its space; one that is not kept there is `exact` and has its
+/// text alone.
 TakeLayers make_layers(const IngestOptions& options, const CodedSpace& space,
                        const CodingSource& source, FittedTake fitted);
 
